@@ -1,0 +1,108 @@
+"""What is sensed: named channels with a unit and a range, and their mapping to the unit interval.
+
+The network's IO units are sigmoids, so a channel's range is mapped to 0.1–0.9 and whatever lies
+beyond it is clipped to 0.02–0.98, where a logit is still finite and a gradient still flows.
+Scaling belongs to the channels, not to the data: a saved network carries its channels with it.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, overload
+
+import numpy as np
+from jaxtyping import Float, Int
+from numpy import ndarray
+
+from motionese.errors import ChannelError, unknown
+
+INNER_LOW, INNER_HIGH = 0.1, 0.9
+"""Where a channel's range lies in the unit interval."""
+CLIP_LOW, CLIP_HIGH = 0.02, 0.98
+"""Limits of every value in the unit interval, targets and inputs alike."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One sensed quantity: its name, its unit, and the range [unit] it is expected in."""
+
+    name: str
+    unit: str
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
+            raise ChannelError(
+                f"channel '{self.name}': its range must be finite with low < high, "
+                f"got {self.low} to {self.high} {self.unit}"
+            )
+
+
+class Channels(Sequence[Channel]):
+    """The channels of a body or a recording, in the order of the columns of its arrays."""
+
+    def __init__(self, channels: Iterable[Channel]) -> None:
+        self._channels = tuple(channels)
+        if not self._channels:
+            raise ChannelError("no channels given; at least one is needed")
+        doubled = sorted({n for n in self.names if self.names.count(n) > 1})
+        if doubled:
+            raise ChannelError(f"channel names must be unique; doubled: {', '.join(doubled)}")
+        self._low = np.array([c.low for c in self._channels])
+        self._span = np.array([c.high - c.low for c in self._channels])
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The channels' names, in order."""
+        return tuple(c.name for c in self._channels)
+
+    def indices(self, names: Iterable[str]) -> Int[ndarray, " K"]:
+        """Return the columns of the named channels; `ChannelError` for a name that is not here."""
+        columns = []
+        for name in names:
+            if name not in self.names:
+                raise ChannelError(unknown("channel", name, self.names))
+            columns.append(self.names.index(name))
+        return np.array(columns, dtype=np.int64)
+
+    def to_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
+        """Map values [the channels' units], last axis the channels, to the unit interval."""
+        self._check_width(values)
+        share = (values - self._low) / self._span
+        return np.clip(INNER_LOW + (INNER_HIGH - INNER_LOW) * share, CLIP_LOW, CLIP_HIGH)
+
+    def from_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
+        """Map the unit interval, last axis the channels, back to the channels' units."""
+        self._check_width(values)
+        share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
+        return self._low + self._span * share
+
+    def _check_width(self, values: Float[ndarray, "*shape"]) -> None:
+        if values.ndim == 0 or values.shape[-1] != len(self):
+            raise ChannelError(
+                f"the last axis must hold the {len(self)} channels {', '.join(self.names)}; "
+                f"got an array of shape {values.shape}"
+            )
+
+    @overload
+    def __getitem__(self, index: int) -> Channel: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Channel]: ...
+    def __getitem__(self, index: int | slice) -> Channel | Sequence[Channel]:
+        return self._channels[index]
+
+    def __len__(self) -> int:
+        return len(self._channels)
+
+    def __iter__(self) -> Iterator[Channel]:
+        return iter(self._channels)
+
+    def __eq__(self, other: Any) -> bool:
+        return isinstance(other, Channels) and self._channels == other._channels
+
+    def __hash__(self) -> int:
+        return hash(self._channels)
+
+    def __repr__(self) -> str:
+        return f"Channels({', '.join(f'{c.name} [{c.unit}]' for c in self._channels)})"

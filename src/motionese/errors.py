@@ -1,0 +1,53 @@
+"""The package's exceptions: each carries one clear sentence for the person who meets it.
+
+The command line prints the sentence of a `MotioneseError` and leaves with exit status 2; any other
+exception that reaches it is a defect of the package.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class MotioneseError(Exception):
+    """Something the user can put right; its text says what was got and what would be right."""
+
+
+class SettingError(MotioneseError):
+    """A setting that does not exist, or a value outside its allowed range."""
+
+
+class ChannelError(MotioneseError):
+    """A channel that does not exist, or values that do not fit the channels."""
+
+
+class MotionError(MotioneseError):
+    """Recorded motions that cannot be learned from: empty, not finite, of the wrong shape."""
+
+
+class TaskError(MotioneseError):
+    """A motion that the task does not allow, or a corner that the arm does not reach."""
+
+
+class StorageError(MotioneseError):
+    """A file that is not a model of this package, is cut short, or belongs to other settings."""
+
+
+class RunFolderError(MotioneseError):
+    """A run folder that is in use, not ours, not writable, or of other settings."""
+
+
+class RenderingError(MotioneseError):
+    """Pictures cannot be rendered on this machine; the text names what to install."""
+
+
+class TooFewSeedsError(MotioneseError):
+    """A statistical test was asked for with fewer seeds than it needs."""
+
+
+def unknown(kind: str, name: str, known: Iterable[str]) -> str:
+    """Return the sentence for a name that does not exist, with the nearest one that does."""
+    names = [str(k) for k in known]
+    folded = {k.casefold(): k for k in names}
+    near = get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.4)
+    hint = f"; did you mean '{folded[near[0]]}'?" if near else ";"
+    return f"unknown {kind} '{name}'{hint} there are: {', '.join(names)}"
