@@ -57,6 +57,11 @@ class Channels(Sequence[Channel]):
         """The channels' names, in order."""
         return tuple(c.name for c in self._channels)
 
+    @property
+    def interval_widths(self) -> Float[ndarray, " D"]:
+        """How much of each channel's unit the whole unit interval stands for."""
+        return self._span / (INNER_HIGH - INNER_LOW)
+
     def indices(self, names: Iterable[str]) -> Int[ndarray, " K"]:
         """Return the columns of the named channels; `ChannelError` for a name that is not here."""
         columns = []

@@ -1,0 +1,109 @@
+"""Generation in closed loop: from initial states alone, the network fed with its own predictions."""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+from numpy import ndarray
+
+from motionese.errors import ChannelError, SettingError
+from motionese.learning.motions import Batch, Motions
+from motionese.learning.objective import predictions
+from motionese.network import MTRNN, rollout
+
+
+def generate(
+    network: MTRNN,
+    initial_state: Float[ndarray, "*batch N"],
+    steps: int,
+    *,
+    first: Float[ndarray, "*batch D"] | None = None,
+) -> Float[ndarray, "*batch T D"]:
+    """Generate motions in closed loop.
+
+    Args:
+        network: A network that carries channels.
+        initial_state: u_0 of all levels, of one motion or of a batch.
+        steps: Rows T of the result.
+        first: What is sensed at the first row, in the channels' units: the network's first
+            input. Its own y_0 where left out.
+
+    Returns:
+        The path in the channels' units. Row 0 is y_0, or `first`.
+    """
+    paths, _ = _closed_loop(network, initial_state, steps, first)
+    return paths
+
+
+def activity(
+    network: MTRNN,
+    initial_state: Float[ndarray, "*batch N"],
+    steps: int,
+    *,
+    first: Float[ndarray, "*batch D"] | None = None,
+) -> Float[ndarray, "*batch T N"]:
+    """Return y of all units while the network generates, as `generate` does."""
+    _, outputs = _closed_loop(network, initial_state, steps, first)
+    return outputs
+
+
+def _closed_loop(
+    network: MTRNN,
+    initial_state: Float[ndarray, "*batch N"],
+    steps: int,
+    first: Float[ndarray, "*batch D"] | None,
+) -> tuple[ndarray, ndarray]:
+    channels = network.channels
+    if channels is None:
+        raise ChannelError("the network carries no channels; train it on motions first")
+    start = np.asarray(initial_state)
+    if start.shape[-1] != network.size:
+        raise SettingError(
+            f"initial states must have one value per unit ({network.size}), got {start.shape[-1]}"
+        )
+    if steps < 2:
+        raise SettingError(f"steps must be ≥ 2, got {steps}")
+    flat = jnp.asarray(start.reshape(-1, network.size), network.weights.dtype)
+    sensed = np.full((len(flat), steps, network.io_size), 0.5)
+    share = np.zeros_like(sensed)
+    if first is not None:
+        sensed[:, 0] = channels.to_unit(np.asarray(first)).reshape(-1, network.io_size)
+        share[:, 0] = 1.0
+    outputs = np.asarray(
+        _outputs(network, flat, jnp.asarray(sensed, flat.dtype), jnp.asarray(share, flat.dtype))
+    ).copy()
+    if first is not None:
+        outputs[:, 0, : network.io_size] = sensed[:, 0]
+    outputs = outputs.reshape(*start.shape[:-1], steps, network.size)
+    return channels.from_unit(outputs[..., : network.io_size]), outputs
+
+
+@eqx.filter_jit
+def _outputs(network: MTRNN, initial: Array, sensed: Array, share: Array) -> Array:
+    return jax.nn.sigmoid(rollout(network, initial, sensed, share))
+
+
+def closed_loop_errors(
+    network: MTRNN, motions: Motions, initial_states: Float[ndarray, "S N"]
+) -> Float[ndarray, "S D"]:
+    """Return the root mean squared error of every motion in closed loop, in the channels' units.
+
+    A channel that is observed nowhere after the first row has the error NaN: it is not known.
+    """
+    batch = motions.batch()
+    predicted = predicted_in_closed_loop(
+        network, batch, jnp.asarray(initial_states, network.weights.dtype)
+    )
+    squared = np.asarray(((predicted - batch.sensed) ** 2 * batch.observed)[:, 1:].sum(1))
+    counted = np.asarray(batch.observed[:, 1:].sum(1))
+    mean = np.divide(squared, counted, out=np.full(squared.shape, np.nan), where=counted > 0)
+    return np.asarray(np.sqrt(mean) * motions.channels.interval_widths)
+
+
+@eqx.filter_jit
+def predicted_in_closed_loop(
+    network: MTRNN, batch: Batch, initial: Float[Array, "S N"]
+) -> Float[Array, "S T D"]:
+    """Predict every row of a batch in the unit interval, from the initial states and row 0."""
+    return predictions(network, batch, initial, 0.0)

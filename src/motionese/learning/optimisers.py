@@ -1,0 +1,58 @@
+"""Update rules of training and recognition, from optax."""
+
+from functools import lru_cache
+
+import optax
+
+from motionese.learning.settings import Optimiser, Training
+
+SLOWER, SLOWER_FROM = 0.3, 0.7
+"""Recognition's rate is multiplied by the first after this share of its iterations."""
+
+
+@lru_cache(maxsize=64)
+def update_rule(name: Optimiser, rate: float, momentum: float) -> optax.GradientTransformation:
+    """Return plain descent, descent with momentum, or Adam, at one rate."""
+    if name == "adam":
+        return optax.adam(rate)
+    return optax.sgd(rate, momentum if name == "momentum" else None)
+
+
+@lru_cache(maxsize=64)
+def _training_rule(
+    name: Optimiser, weights: float, initial: float, momentum: float, clip: float, bias: bool
+) -> optax.GradientTransformation:
+    by_group = {
+        "weights": update_rule(name, weights, momentum),
+        "initial": update_rule(name, initial, momentum),
+        "fixed": optax.set_to_zero(),
+    }
+    groups = {"weights": "weights", "bias": "weights" if bias else "fixed", "initial": "initial"}
+    rule = optax.multi_transform(by_group, groups)
+    return optax.chain(optax.clip_by_global_norm(clip), rule) if clip else rule
+
+
+def training_rule(settings: Training, learned_bias: bool) -> optax.GradientTransformation:
+    """Return equations (4) and (5): α for weights and bias, β for initial states, one joint clip.
+
+    Equal settings give the same object, so that compiled code is found again.
+    """
+    return _training_rule(
+        settings.optimiser,
+        settings.weight_rate,
+        settings.initial_rate,
+        settings.momentum,
+        settings.clip,
+        learned_bias,
+    )
+
+
+@lru_cache(maxsize=64)
+def recognition_rule(
+    name: Optimiser, rate: float, momentum: float, iterations: int
+) -> optax.GradientTransformation:
+    """Return the update rule of recognition, whose rate falls towards the end."""
+    falling = optax.piecewise_constant_schedule(rate, {round(SLOWER_FROM * iterations): SLOWER})
+    if name == "adam":
+        return optax.adam(falling)
+    return optax.sgd(falling, momentum if name == "momentum" else None)

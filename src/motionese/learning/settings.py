@@ -1,0 +1,73 @@
+"""Settings of training and of recognition: typed, checked where they are read."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Optimiser = Literal["descent", "momentum", "adam"]
+ByLevel = dict[str, Annotated[float, Field(ge=0)]]
+Rate = Annotated[float, Field(ge=0, le=100)]
+
+
+class Training(BaseModel):
+    """How weights and initial states are trained (equations (3)–(5)).
+
+    Attributes:
+        epochs: Updates, each with the gradient of all motions.
+        optimiser: Plain gradient descent (the paper), with momentum, or Adam.
+        weight_rate: α of equation (4), for the weights and the bias.
+        initial_rate: β of equation (5), for every motion's own initial states.
+        momentum: Of `optimiser = "momentum"`.
+        clip: Largest joint norm of the gradient of weights and initial states; 0 for none.
+        teacher_forcing: Share of the sensed value in an input, the rest being the network's own
+            prediction: 1 teacher forcing, 0 closed loop.
+        bound: Largest |u_0| of a level's initial states after every update; free if not named.
+        noise: Standard deviation of the noise on a level's potentials at every step; none if not
+            named.
+        patience: Stop when the loss has fallen by less than `tolerance` over so many epochs;
+            0 to train through all epochs.
+        tolerance: See `patience`; a share of the loss.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    epochs: int = Field(default=2000, ge=1)
+    optimiser: Optimiser = "momentum"
+    weight_rate: Rate = 0.01
+    initial_rate: Rate = 0.1
+    momentum: float = Field(default=0.9, ge=0, lt=1)
+    clip: float = Field(default=1.0, ge=0)
+    teacher_forcing: float = Field(default=0.3, ge=0, le=1)
+    bound: ByLevel = {"cf": 5.0, "cs": 5.0}
+    noise: ByLevel = {}
+    patience: int = Field(default=0, ge=0)
+    tolerance: float = Field(default=1e-3, ge=0, lt=1)
+
+
+class Recognition(BaseModel):
+    """How the initial states of an observed motion are found, the weights frozen.
+
+    Attributes:
+        iterations: Updates of the initial states.
+        starts: Random starts beside those that are given.
+        spread: Standard deviation of the random starts.
+        optimiser: Plain gradient descent, with momentum, or Adam.
+        rate: Rate of the updates, times 0.3 after 70 % of them.
+        momentum: Of `optimiser = "momentum"`.
+        bound: Largest |u_0| of a level's initial states; free if not named.
+        penalty: Weight of Σ u_0² beside the summed squared error; a prior at 0.
+        tolerance: Largest residual of a channel, as a share of its range, that still counts as
+            recognised.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    iterations: int = Field(default=800, ge=1)
+    starts: int = Field(default=3, ge=0)
+    spread: float = Field(default=0.5, ge=0)
+    optimiser: Optimiser = "adam"
+    rate: Rate = 0.2
+    momentum: float = Field(default=0.9, ge=0, lt=1)
+    bound: ByLevel = {"cf": 100.0, "cs": 5.0}
+    penalty: float = Field(default=0.0, ge=0)
+    tolerance: float = Field(default=0.1, gt=0)

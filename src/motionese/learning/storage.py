@@ -1,0 +1,43 @@
+"""A fit on disk: the network, the initial states it learned, and how training ended."""
+
+from pathlib import Path
+
+import numpy as np
+
+from motionese.errors import StorageError
+from motionese.learning.status import Ending, Status
+from motionese.learning.train import Fit
+from motionese.network import read_network, write_network
+
+ARRAYS = ("initial_states", "losses", "validation_losses", "closed_loop_error")
+
+
+def save(path: str | Path, fit: Fit) -> None:
+    """Write a fit to one safetensors file, whole or not at all."""
+    facts = {
+        "names": list(fit.names),
+        "status": fit.status.ending.value,
+        "sentence": fit.status.sentence,
+    }
+    arrays = {name: np.asarray(getattr(fit, name)) for name in ARRAYS}
+    write_network(Path(path), fit.network, arrays, facts)
+
+
+def load(path: str | Path) -> Fit:
+    """Read what `save` wrote; `StorageError` if the file is not a fit, or cut short."""
+    network, arrays, facts = read_network(Path(path))
+    missing = [name for name in ARRAYS if name not in arrays]
+    if missing or "names" not in facts:
+        raise StorageError(f"{path}: a network without a fit; {', '.join(missing)} missing")
+    states = arrays["initial_states"]
+    if states.shape != (len(facts["names"]), network.size):
+        raise StorageError(
+            f"{path}: initial_states must have shape {(len(facts['names']), network.size)}, "
+            f"got {states.shape}"
+        )
+    return Fit(
+        network=network,
+        names=tuple(facts["names"]),
+        status=Status(Ending(facts["status"]), facts["sentence"]),
+        **arrays,
+    )

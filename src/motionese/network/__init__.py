@@ -1,0 +1,20 @@
+"""The MTRNN: levels and wiring, whole rollouts with their adjoint, growth, storage."""
+
+from motionese.network.growth import grow
+from motionese.network.levels import Level
+from motionese.network.mtrnn import MTRNN, InitialIO
+from motionese.network.rollout import rollout
+from motionese.network.storage import read_network, write_network
+from motionese.network.wiring import Scale, wiring
+
+__all__ = [
+    "MTRNN",
+    "InitialIO",
+    "Level",
+    "Scale",
+    "grow",
+    "read_network",
+    "rollout",
+    "wiring",
+    "write_network",
+]

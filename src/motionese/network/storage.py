@@ -1,0 +1,119 @@
+"""A network on disk: one safetensors file, its structure as JSON in the file's metadata."""
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import safetensors
+import safetensors.numpy
+from numpy import ndarray
+
+from motionese.channels import Channel, Channels
+from motionese.errors import MotioneseError, StorageError
+from motionese.files import write_whole
+from motionese.network.levels import Level
+from motionese.network.mtrnn import MTRNN
+
+FORMAT, VERSION = "motionese-mtrnn", 1
+
+
+def write_network(
+    path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: Mapping[str, Any]
+) -> None:
+    """Write a network together with further arrays and JSON-able facts, whole or not at all."""
+    structure = {
+        "format": FORMAT,
+        "version": VERSION,
+        "levels": [{"name": level.name, "size": level.size} for level in network.levels],
+        "channels": None if network.channels is None else [vars(c) for c in network.channels],
+        "learned_bias": network.learned_bias,
+        "initial_io": network.initial_io,
+        "facts": dict(facts),
+    }
+    own = {"weights": network.weights, "bias": network.bias, "tau": network.tau}
+    tensors = {name: np.ascontiguousarray(value) for name, value in {**own, **arrays}.items()}
+    write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
+
+
+def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]:
+    """Read what `write_network` wrote.
+
+    Returns:
+        The network, the further arrays, the facts.
+
+    Raises:
+        StorageError: The file is not there, not ours, cut short, of a newer format, or holds
+            shapes, time constants or values that no network can have.
+    """
+    structure, tensors = _contents(path)
+    try:
+        sizes = [int(level["size"]) for level in structure["levels"]]
+        units = sum(sizes)
+        expected = {"weights": (units, units), "bias": (units,), "tau": (units,)}
+        for name, shape in expected.items():
+            _check_tensor(path, name, tensors.get(name), shape)
+        bounds = np.cumsum([0, *sizes])
+        levels = [
+            Level(size, tuple(float(t) for t in tensors["tau"][low:high]), level["name"])
+            for level, size, low, high in zip(
+                structure["levels"], sizes, bounds, bounds[1:], strict=False
+            )
+        ]
+        given = structure["channels"]
+        network = MTRNN(
+            levels,
+            key=jax.random.key(0),
+            learned_bias=bool(structure["learned_bias"]),
+            initial_io=structure["initial_io"],
+            channels=None if given is None else Channels(Channel(**c) for c in given),
+        )
+    except StorageError:
+        raise
+    except MotioneseError as error:
+        raise StorageError(f"{path}: no valid network: {error}") from error
+    except (KeyError, TypeError, ValueError) as error:
+        raise StorageError(f"{path}: its description of the network is incomplete") from error
+    own = [jnp.asarray(tensors.pop(name)) for name in ("weights", "bias", "tau")]
+    return (
+        eqx.tree_at(lambda n: (n.weights, n.bias, n.tau), network, tuple(own)),
+        tensors,
+        structure["facts"],
+    )
+
+
+def _contents(path: Path) -> tuple[dict[str, Any], dict[str, ndarray]]:
+    if not path.is_file():
+        raise StorageError(f"{path}: no such model file")
+    try:
+        with safetensors.safe_open(path, framework="numpy") as file:
+            metadata = file.metadata() or {}
+            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
+        structure = json.loads(metadata.get("motionese", "null"))
+    except (safetensors.SafetensorError, json.JSONDecodeError, OSError) as error:
+        raise StorageError(f"{path}: not a readable model file, perhaps cut short") from error
+    if not isinstance(structure, dict) or structure.get("format") != FORMAT:
+        raise StorageError(f"{path}: not a model of motionese")
+    if structure.get("version") != VERSION:
+        raise StorageError(
+            f"{path}: model format {structure.get('version')}, this version reads {VERSION}; "
+            "install a newer motionese"
+        )
+    return structure, tensors
+
+
+def _check_tensor(path: Path, name: str, value: ndarray | None, shape: tuple[int, ...]) -> None:
+    if value is None or value.shape != shape:
+        got = "nothing" if value is None else f"shape {value.shape}"
+        raise StorageError(f"{path}: {name} must have shape {shape}, got {got}")
+    if not np.isfinite(value).all():
+        raise StorageError(f"{path}: {name} holds values that are not finite")
+    if name == "tau" and value.min() < 1:
+        raise StorageError(f"{path}: tau must be ≥ 1 step, got {float(value.min()):g}")
+    if not math.prod(shape):
+        raise StorageError(f"{path}: {name} is empty")

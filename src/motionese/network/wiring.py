@@ -1,0 +1,47 @@
+"""Which units are wired, and the weights a block of the wiring starts with.
+
+A level is wired to itself and to its neighbours only: no weight leads from IO to Cs or back
+(Yamashita & Tani 2008; Mochizuki et al. 2013, section III).
+"""
+
+from typing import Literal
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+from numpy import ndarray
+
+Scale = Literal["fan_in", "one"]
+
+
+def wiring(sizes: tuple[int, ...]) -> Bool[ndarray, "N N"]:
+    """Return which weights w_ij exist: those inside a level and between neighbouring levels."""
+    level = np.repeat(np.arange(len(sizes)), sizes)
+    return np.abs(level[:, None] - level[None, :]) <= 1
+
+
+def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[ndarray, "N N"]:
+    """Return the standard deviation every initial weight is drawn with, 0 where nothing is wired.
+
+    Args:
+        sizes: Units per level.
+        gain: Multiplies every scale. A sigmoid's slope is at most 1/4, so a gain near 4 is what
+            gives a level dynamics of its own; with 1 its activity dies away.
+        scale: `"fan_in"`: gain / √(units of the sending level), block by block, so that two Cs
+            units move Cf as much as forty Cf units do. `"one"`: gain / √(units of the largest
+            level) for all blocks.
+    """
+    if scale == "fan_in":
+        senders = np.repeat(np.asarray(sizes, dtype=np.float64), sizes)
+    else:
+        senders = np.full(sum(sizes), float(max(sizes)))
+    return np.asarray(wiring(sizes) * gain / np.sqrt(senders)[None, :])
+
+
+def draw_weights(
+    sizes: tuple[int, ...], gain: float, scale: Scale, key: Array
+) -> Float[Array, "N N"]:
+    """Draw initial weights from N(0, scale²) on the wiring."""
+    deviates = jax.random.normal(key, (sum(sizes), sum(sizes)))
+    return deviates * jnp.asarray(weight_scales(sizes, gain, scale), dtype=deviates.dtype)
