@@ -5,7 +5,10 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 Optimiser = Literal["descent", "momentum", "adam"]
-ByLevel = dict[str, Annotated[float, Field(ge=0)]]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+ByLevel = dict[str, NotNegative]
+Bound = NotNegative | ByLevel
+"""One limit for all context levels, or limits by level; a level that is not named is free."""
 Rate = Annotated[float, Field(ge=0, le=100)]
 
 
@@ -21,7 +24,8 @@ class Training(BaseModel):
         clip: Largest joint norm of the gradient of weights and initial states; 0 for none.
         teacher_forcing: Share of the sensed value in an input, the rest being the network's own
             prediction: 1 teacher forcing, 0 closed loop.
-        bound: Largest |u_0| of a level's initial states after every update; free if not named.
+        bound: Largest |u_0| of the initial states after every update, for all context levels or
+            by level. Large ones that decay are used as timers and run out.
         noise: Standard deviation of the noise on a level's potentials at every step; none if not
             named.
         patience: Stop when the loss has fallen by less than `tolerance` over so many epochs;
@@ -38,7 +42,7 @@ class Training(BaseModel):
     momentum: float = Field(default=0.9, ge=0, lt=1)
     clip: float = Field(default=1.0, ge=0)
     teacher_forcing: float = Field(default=0.3, ge=0, le=1)
-    bound: ByLevel = {"cf": 5.0, "cs": 5.0}
+    bound: Bound = 5.0
     noise: ByLevel = {}
     patience: int = Field(default=0, ge=0)
     tolerance: float = Field(default=1e-3, ge=0, lt=1)
@@ -54,7 +58,7 @@ class Recognition(BaseModel):
         optimiser: Plain gradient descent, with momentum, or Adam.
         rate: Rate of the updates, times 0.3 after 70 % of them.
         momentum: Of `optimiser = "momentum"`.
-        bound: Largest |u_0| of a level's initial states; free if not named.
+        bound: Largest |u_0| of the initial states, for all context levels or by level.
         penalty: Weight of Σ u_0² beside the summed squared error; a prior at 0.
         tolerance: Largest residual of a channel, as a share of its range, that still counts as
             recognised.
@@ -68,6 +72,6 @@ class Recognition(BaseModel):
     optimiser: Optimiser = "adam"
     rate: Rate = 0.2
     momentum: float = Field(default=0.9, ge=0, lt=1)
-    bound: ByLevel = {"cf": 100.0, "cs": 5.0}
+    bound: Bound = 100.0
     penalty: float = Field(default=0.0, ge=0)
     tolerance: float = Field(default=0.1, gt=0)

@@ -24,7 +24,7 @@ from motionese.network import MTRNN
 CHUNK = 100
 """Epochs in one compiled call; progress is told and convergence judged between calls."""
 
-VALIDATING = Recognition(iterations=50, starts=0, rate=0.1, bound={})
+VALIDATING = Recognition(iterations=50, starts=0, rate=0.1)
 """How held-out motions are recognised after every chunk: warm, so a few updates do."""
 
 

@@ -1,7 +1,7 @@
 """The multiple-timescale recurrent network: levels, weights, time constants, channels."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Literal
 
 import equinox as eqx
@@ -122,9 +122,16 @@ class MTRNN(eqx.Module):
         """Return the weights with what is not wired held at 0, in value and in gradient."""
         return self.weights * jnp.asarray(wiring(self.sizes), self.weights.dtype)
 
-    def per_unit(self, by_level: dict[str, float], default: float) -> Float[Array, " N"]:
-        """Spread values named by level over the units; `default` where a level is not named."""
-        values = jnp.full(self.size, default, self.weights.dtype)
-        for level, value in by_level.items():
-            values = values.at[self.units(level)].set(value)
-        return values
+    def per_unit(self, values: float | Mapping[str, float], other: float) -> Float[Array, " N"]:
+        """Spread values over the units.
+
+        Args:
+            values: One value for all context levels, or values by level name.
+            other: The value of IO, and of levels that are not named.
+        """
+        spread = jnp.full(self.size, other, self.weights.dtype)
+        if not isinstance(values, Mapping):
+            return spread.at[self.io_size :].set(values)
+        for level, value in values.items():
+            spread = spread.at[self.units(level)].set(value)
+        return spread
