@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
@@ -41,6 +40,7 @@ class Performance:
         predicted: What the network predicted, in the channels' units. [T, 6]
         path: True positions of its own marker [m, world]. [T, 3]
         depths: How deep the buttons were pressed [mm], right and left. [T, 2]
+        poses: What a picture of each row needs, see `body.pictures`. [T, P]
     """
 
     sensed: Float[ndarray, "T 6"]
@@ -48,6 +48,7 @@ class Performance:
     predicted: Float[ndarray, "T 6"]
     path: Float[ndarray, "T 3"]
     depths: Float[ndarray, "T 2"]
+    poses: Float[ndarray, "T P"]
 
     def experience(self, efference_copy: bool) -> Float[ndarray, "T 6"]:
         """Return what is learned from: sensed, the arm as commanded if there is a copy of it."""
@@ -99,7 +100,9 @@ def perform(
     record.predicted.append(body.channels.from_unit(now))
     share = 1.0
     for _ in range(steps - 1):
-        state = np.asarray(_advance(network, jnp.asarray(state), jnp.asarray(now), jnp.asarray(share)))
+        state = np.asarray(
+            _advance(network, jnp.asarray(state), jnp.asarray(now), jnp.asarray(share))
+        )
         prediction = body.channels.from_unit(1 / (1 + np.exp(-state[: len(now)])))
         explored = imitation.exploration * rng.standard_normal(2) if imitation.exploration else 0.0
         record.step(body, prediction[ARM] + explored, prediction)
@@ -108,9 +111,7 @@ def perform(
     return record.performance()
 
 
-def babble(
-    body: Actroid, steps: int, stroke_steps: int, rng: np.random.Generator
-) -> Performance:
+def babble(body: Actroid, steps: int, stroke_steps: int, rng: np.random.Generator) -> Performance:
     """Move the arm from one random posture to another, in a minimum-jerk command."""
     low, high = body.channels.from_unit(np.array([[0.1] * 6, [0.9] * 6]))[:, ARM]
     start, end = rng.uniform(low, high, (2, 2))
@@ -132,6 +133,7 @@ class _Record:
         self.predicted: list[ndarray] = []
         self.path = [body.hand_position()]
         self.depths = [body.button_depths()]
+        self.poses = [body.pose()]
 
     def step(self, body: Actroid, command: Float[ndarray, "2"], prediction: ndarray) -> None:
         """Command, let a control period pass, and note what came of it."""
@@ -142,6 +144,7 @@ class _Record:
         self.predicted.append(prediction)
         self.path.append(body.hand_position())
         self.depths.append(body.button_depths())
+        self.poses.append(body.pose())
 
     def latest(self, efference_copy: bool) -> Float[ndarray, "6"]:
         """Return the last row as the network takes it."""
@@ -152,7 +155,14 @@ class _Record:
 
     def performance(self) -> Performance:
         """Return what was recorded."""
-        columns = (self.sensed, self.commanded, self.predicted, self.path, self.depths)
+        columns = (
+            self.sensed,
+            self.commanded,
+            self.predicted,
+            self.path,
+            self.depths,
+            self.poses,
+        )
         return Performance(*(np.array(column) for column in columns))
 
 

@@ -109,7 +109,7 @@ def _single(override: str, table: Table) -> Table:
         group = ".".join(path[:depth])
         if group in OPEN_GROUPS:
             break
-        if not isinstance(here, Mapping) or part not in here and part not in _optional(group):
+        if not isinstance(here, Mapping) or (part not in here and part not in _optional(group)):
             known = _known(path[:depth])
             raise SettingError(unknown("setting", ".".join(path[: depth + 1]), known))
         here = here.get(part, {})

@@ -1,6 +1,5 @@
 """The robot and the caregiver face to face: what one can see and do of the other's motions."""
 
-import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
@@ -65,9 +64,7 @@ class Scene:
         """Let the robot make one babbled movement, as long as a primitive."""
         manner = self.settings.caregiver
         rng = generator_for(self.seed, "babbling", index)
-        return babble(
-            self.body, manner.stroke_steps + manner.rest_steps, manner.stroke_steps, rng
-        )
+        return babble(self.body, manner.stroke_steps + manner.rest_steps, manner.stroke_steps, rng)
 
     def _arm_at(self, corner: str) -> Float[ndarray, "2"]:
         """Return the arm channels' values [rad] while the hand rests in a corner."""

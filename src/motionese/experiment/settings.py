@@ -9,6 +9,7 @@ from motionese.experiment.conditions import Teaching
 from motionese.learning import Recognition, Training
 from motionese.network import InitialIO, Level, Scale
 
+
 class Group(BaseModel):
     """A table of settings: complete, read-only, without unknown names."""
 

@@ -124,8 +124,9 @@ def _backward(saved: Saved, outer: Array) -> Gradients:
         earlier = outer_t + (1 - rate) * delta + slope_t * (delta @ scaled)
         return earlier, earlier
 
-    _, deltas = jax.lax.scan(step, outer[-1], (outer[:-1], slope[:-1]), reverse=True)
-    later = jnp.concatenate([deltas[1:], outer[-1:]])
+    _, earlier = jax.lax.scan(step, outer[-1], (outer[:-1], slope[:-1]), reverse=True)
+    deltas = jnp.concatenate([earlier, outer[-1:]])
+    later = deltas[1:]
     error = rate * later
     x = (_padded(share * sensed, 0.0, units) + gate * y)[:-1]
     reached = (later @ scaled)[..., : sensed.shape[-1]]

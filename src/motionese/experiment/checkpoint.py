@@ -1,0 +1,76 @@
+"""A checkpoint per loop: the learner and what the loop measured, in one file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from motionese.errors import StorageError
+from motionese.experiment.imitation_loop import Row
+from motionese.experiment.learner import Experience, Learner
+from motionese.network import read_network, write_network
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A run after a whole loop.
+
+    Attributes:
+        loop: The loop that was finished.
+        learner: What the robot has become.
+        rows: What was measured in this loop, a row per motion.
+        development: What the network was after it.
+        failure: Why the run must end here; empty if it goes on.
+        seconds: How long the run has taken so far [s].
+    """
+
+    loop: int
+    learner: Learner
+    rows: list[Row]
+    development: Row
+    failure: str
+    seconds: float
+
+
+def checkpoint_path(folder: Path, loop: int) -> Path:
+    """Return where a loop's checkpoint lies in a run's folder."""
+    return folder / f"loop-{loop:02d}.safetensors"
+
+
+def write_checkpoint(folder: Path, checkpoint: Checkpoint) -> None:
+    """Write a checkpoint, whole or not at all."""
+    learner = checkpoint.learner
+    facts: dict[str, Any] = {
+        name: value for name, value in vars(checkpoint).items() if name != "learner"
+    }
+    facts["experiences"] = [{"loop": e.loop, "motion": e.motion} for e in learner.experiences]
+    arrays = {}
+    for i, experience in enumerate(learner.experiences):
+        arrays[f"values.{i}"] = experience.values
+        arrays[f"initial_state.{i}"] = np.asarray(experience.initial_state)
+    write_network(checkpoint_path(folder, checkpoint.loop), learner.network, arrays, facts)
+
+
+def read_checkpoint(path: Path) -> Checkpoint:
+    """Read a checkpoint; `StorageError` if it is cut short or not one of ours."""
+    network, arrays, facts = read_network(path)
+    try:
+        experiences = tuple(
+            Experience(
+                loop=each["loop"],
+                motion=each["motion"],
+                values=arrays[f"values.{i}"],
+                initial_state=arrays[f"initial_state.{i}"],
+            )
+            for i, each in enumerate(facts.pop("experiences"))
+        )
+        return Checkpoint(learner=Learner(network, experiences), **facts)
+    except (KeyError, TypeError) as error:
+        raise StorageError(f"{path}: a model, but not a checkpoint of an experiment") from error
+
+
+def latest_checkpoint(folder: Path) -> Checkpoint | None:
+    """Return the checkpoint of the last whole loop, if there is one."""
+    paths = sorted(folder.glob("loop-*.safetensors"))
+    return read_checkpoint(paths[-1]) if paths else None

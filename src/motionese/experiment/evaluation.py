@@ -1,0 +1,107 @@
+"""After the last loop: imitation of new motions, the map of the slow initial states, the inside.
+
+Nothing is learned here.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.body import bearing
+from motionese.caregiver import PUSHING_BUTTONS
+from motionese.experiment.imitation_loop import Imitated, Row, imitate
+from motionese.experiment.learner import Learner
+from motionese.experiment.scene import Scene
+from motionese.learning import activity, generate
+
+NEW_MOTIONS = PUSHING_BUTTONS.sequences(3)
+"""The motions of three primitives, none of which is ever taught as a whole."""
+LOOKED_INTO = PUSHING_BUTTONS.motion("UR ↓↑←")
+"""The motion whose performance is kept with everything that went on inside."""
+SLOW, PRIMITIVES = "cs", PUSHING_BUTTONS.sequences(1)
+
+
+def imitate_new_motions(scene: Scene, learner: Learner) -> tuple[list[Row], list[Imitated]]:
+    """Imitate every motion of three primitives once, by recognition alone."""
+    imitated = imitate(
+        scene, learner, NEW_MOTIONS, scene.settings.evaluation.recognition, "new motions"
+    )
+    rows = [
+        {
+            "motion": each.motion.name,
+            "trained": PUSHING_BUTTONS.is_taught(each.motion),
+            **each.measures(scene),
+            "status": each.found.status.ending.value,
+        }
+        for each in imitated
+    ]
+    return rows, imitated
+
+
+def map_slow_states(scene: Scene, learner: Learner) -> list[Row]:
+    """Let the network generate motions from each primitive's Cf_0 over a grid of Cs_0 (Fig. 10).
+
+    Every primitive's Cf_0 is recognised from one demonstration. Directions are those of the hand
+    as the robot sees it: 0 rad to the robot's right, π/2 upwards.
+
+    Returns:
+        A row per primitive and grid point; none where there is no slow level of two units.
+    """
+    network, settings = learner.network, scene.settings.evaluation
+    names = [level.name for level in network.levels]
+    if SLOW not in names or network.levels[names.index(SLOW)].size < 2:
+        return []
+    first_two = range(*network.units(SLOW).indices(network.size))[:2]
+    axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
+    grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
+    rows: list[Row] = []
+    for each in imitate(scene, learner, PRIMITIVES, settings.recognition, "map"):
+        states = np.repeat(each.found.initial_state[None], len(grid), axis=0)
+        states[:, first_two] = grid
+        length = scene.settings.caregiver.rows(each.motion)
+        first = np.repeat(scene.as_own(each.motion, each.watched)[:1], len(grid), axis=0)
+        seen = bearing(generate(network, states, 2 * length, first=first))
+        segments = [_strokes(seen, 0, length - 1), _strokes(seen, length - 1, 2 * length - 1)]
+        for point, *strokes in zip(grid, *segments, strict=True):
+            row: Row = {"primitive": each.motion.name, "cs_1": point[0], "cs_2": point[1]}
+            for number, (direction, extent) in enumerate(strokes, start=1):
+                row |= {f"direction_{number}_rad": direction, f"extent_{number}_rad": extent}
+            rows.append(row)
+    return rows
+
+
+def _strokes(seen: Float[ndarray, "G T 2"], begin: int, end: int) -> Float[ndarray, "G 2"]:
+    """Return direction [rad] and extent [rad] of the seen hand's way between two rows."""
+    azimuth, elevation = np.moveaxis(seen[:, end] - seen[:, begin], -1, 0)
+    right = -azimuth * np.cos(seen[:, begin, 1])
+    return np.stack([np.arctan2(elevation, right), np.hypot(right, elevation)], axis=-1)
+
+
+def inside(learner: Learner, imitated: Sequence[Imitated]) -> dict[str, ndarray]:
+    """Return what is kept of the performances: hands' paths of all, everything of one.
+
+    Returns:
+        `shown.MOTION` and `performed.MOTION`, paths [m] [T, 3]; of `LOOKED_INTO` also `activity`
+        (y of all units [T, N]), `commanded` and `sensed` arm angles [rad] [T, 2], `depths` [mm]
+        and `poses`.
+    """
+    kept: dict[str, ndarray] = {}
+    for each in imitated:
+        done = each.performance
+        kept[f"shown.{each.motion.name}"] = each.watched.path
+        kept[f"performed.{each.motion.name}"] = done.path
+        if each.motion == LOOKED_INTO:
+            first = done.sensed[0].copy()
+            first[:2] = done.commanded[0]
+            kept |= {
+                "activity": activity(
+                    learner.network, each.found.initial_state, len(done.path), first=first
+                ),
+                "commanded": done.commanded,
+                "sensed": done.sensed[:, :2],
+                "depths": done.depths,
+                "poses": done.poses,
+            }
+    return kept

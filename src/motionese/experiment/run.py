@@ -1,0 +1,159 @@
+"""One run, a condition with a seed: babbling, the imitation loops of both phases, evaluation.
+
+A run is a function of settings, condition and seed. It writes a checkpoint after every loop; one
+that was stopped, or killed, goes on from its last whole loop and ends with the same bits.
+"""
+
+import io
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import jax
+import numpy as np
+
+from motionese.experiment.checkpoint import (
+    Checkpoint,
+    checkpoint_path,
+    latest_checkpoint,
+    read_checkpoint,
+    write_checkpoint,
+)
+from motionese.experiment.conditions import Condition
+from motionese.experiment.evaluation import imitate_new_motions, inside, map_slow_states
+from motionese.experiment.imitation_loop import Row, development, for_levels, imitation_loop
+from motionese.experiment.keys import key_for
+from motionese.experiment.learner import BABBLING, Experience, Learner
+from motionese.experiment.scene import Scene
+from motionese.experiment.settings import Settings
+from motionese.experiment.tables import write_table
+from motionese.files import write_whole
+from motionese.learning import Motions, train
+from motionese.network import MTRNN
+
+ENDED = "ended.json"
+
+
+@dataclass(frozen=True)
+class Run:
+    """A condition with a seed, and the folder it is kept in."""
+
+    condition: Condition
+    seed: int
+    folder: Path
+
+    def ended(self) -> Row | None:
+        """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not."""
+        path = self.folder / ENDED
+        return dict(json.loads(path.read_text())) if path.is_file() else None
+
+
+def go_through(run: Run, settings: Settings, told: Callable[[int], None]) -> Row:
+    """Do what is left of a run, and return how it ended.
+
+    Args:
+        run: The run.
+        settings: All settings.
+        told: Called after every loop with its number.
+    """
+    ended = run.ended()
+    if ended:
+        return ended
+    run.folder.mkdir(parents=True, exist_ok=True)
+    scene = Scene(settings, run.seed)
+    checkpoint = latest_checkpoint(run.folder)
+    while checkpoint is None or (
+        checkpoint.loop < settings.phases.loops and not checkpoint.failure
+    ):
+        checkpoint = _next_loop(run, scene, checkpoint)
+        write_checkpoint(run.folder, checkpoint)
+        told(checkpoint.loop)
+    return _finish(run, scene, checkpoint)
+
+
+def _next_loop(run: Run, scene: Scene, before: Checkpoint | None) -> Checkpoint:
+    began = time.perf_counter()
+    settings = scene.settings
+    loop = before.loop + 1 if before else 1
+    learner = before.learner if before else _born(run, scene)
+    phase = 1 if loop <= settings.phases.change_after else 2
+    if loop == settings.phases.change_after + 1:
+        while len(learner.network.levels) < len(settings.network.levels):
+            key = key_for(run.seed, "growth", len(learner.network.levels))
+            learner = learner.grown(settings.network, key)
+    opened = {f"{k}_at_opening": v for k, v in development(learner).items() if k.startswith("rms")}
+    known = {k: v for k, v in before.development.items() if k in opened} if before else {}
+    lessons = settings.lessons(run.condition.teaching)
+    capacity = settings.imitation.memory * max(len(lesson) for lesson in lessons)
+    learner, rows, grown, status = imitation_loop(
+        scene, learner, lessons[phase - 1], loop, capacity
+    )
+    return Checkpoint(
+        loop=loop,
+        learner=learner,
+        rows=[{"loop": loop, "phase": phase, **row} for row in rows],
+        development={**grown, **opened, **known},
+        failure=f"loop {loop}: {status}" if status.failed else "",
+        seconds=(before.seconds if before else 0.0) + time.perf_counter() - began,
+    )
+
+
+def _born(run: Run, scene: Scene) -> Learner:
+    """Draw the network, of all levels or of IO and Cf alone, and let it learn from babbling."""
+    settings = scene.settings
+    levels = settings.network.drawn_levels()
+    network = MTRNN(
+        levels if run.condition.structuring == "MND" else levels[:2],
+        key=key_for(run.seed, "network"),
+        gain=settings.network.gain,
+        scale=settings.network.scale,
+        learned_bias=settings.network.learned_bias,
+        initial_io=settings.network.initial_io,
+        channels=scene.body.channels,
+    )
+    learner = Learner(network)
+    if not settings.babbling.movements:
+        return learner
+    copied = settings.imitation.efference_copy
+    babbled = [
+        scene.babble(index).experience(copied) for index in range(settings.babbling.movements)
+    ]
+    fit = train(
+        network,
+        Motions.from_arrays(babbled, scene.body.channels, scene.body.rate_hz),
+        epochs=settings.babbling.epochs,
+        settings=for_levels(settings.training, learner).model_copy(update={"noise": {}}),
+    )
+    states = zip(babbled, fit.initial_states, strict=True)
+    return Learner(fit.network, tuple(Experience(0, BABBLING, v, s) for v, s in states))
+
+
+def _finish(run: Run, scene: Scene, last: Checkpoint) -> Row:
+    """Write the run's tables; evaluate it if it did not fail."""
+    began = time.perf_counter()
+    loops = [read_checkpoint(checkpoint_path(run.folder, i + 1)) for i in range(last.loop)]
+    who = {"condition": run.condition.name, "seed": run.seed}
+    write_table(run.folder / "loops.csv", [{**who, **row} for c in loops for row in c.rows])
+    write_table(run.folder / "development.csv", [{**who, **c.development} for c in loops])
+    if not last.failure:
+        new, imitated = imitate_new_motions(scene, last.learner)
+        points = map_slow_states(scene, last.learner)
+        write_table(run.folder / "triples.csv", [{**who, **row} for row in new])
+        write_table(run.folder / "slow_state_map.csv", [{**who, **row} for row in points])
+        kept = io.BytesIO()
+        np.savez_compressed(kept, **inside(last.learner, imitated))
+        write_whole(run.folder / "inside.npz", kept.getvalue())
+    ended = {
+        "status": "diverged" if last.failure else "finished",
+        "reason": last.failure,
+        "seconds": round(last.seconds + time.perf_counter() - began, 2),
+    }
+    write_whole(run.folder / ENDED, json.dumps(ended, indent=1))
+    return ended
+
+
+def use_one_core() -> None:
+    """Keep JAX to one thread: networks this small are faster so, and runs share the machine."""
+    jax.config.update("jax_num_cpu_devices", 1)
