@@ -20,7 +20,7 @@ def test_push_presses_its_button_and_raise_lets_it_go(stiffness, start, end, min
         body.command(up + share * (down - up))
         body.step()
     pressed = body.deepest_press()
-    assert 1.8 * PRESSED_MM < pressed[BUTTON[end]] < 12
+    assert 1.8 * PRESSED_MM < pressed[BUTTON[end]] < 15.5
     assert pressed[1 - BUTTON[end]] < 0.1
     for share in [*minimum_jerk, 1.0, 1.0, 1.0, 1.0]:
         body.command(down + share * (up - down))
@@ -34,7 +34,7 @@ def test_command_reaching_a_corner_settles_there(body, corner, rng):
     body.reset(body.command_reaching(CORNERS[corner]), rng)
     np.testing.assert_allclose(body.hand_position(), CORNERS[corner], atol=2e-4)
     depths = body.button_depths()
-    expected = [10.0 if BUTTON.get(corner) == side else 0.0 for side in (0, 1)]
+    expected = [13.0 if BUTTON.get(corner) == side else 0.0 for side in (0, 1)]
     np.testing.assert_allclose(depths, expected, atol=0.5)
     body.step()
     np.testing.assert_allclose(body.hand_position(), CORNERS[corner], atol=2e-4)
@@ -65,7 +65,7 @@ def test_caregiver_presses_as_deep_as_the_robot(body, start, end, minimum_jerk, 
         body.move_caregiver(projected(CORNERS[start] + share * (CORNERS[end] - CORNERS[start])))
         body.step()
     np.testing.assert_allclose(body.caregiver_position(), CORNERS[end], atol=1e-12)
-    assert body.deepest_press()[BUTTON[end]] == pytest.approx(10, abs=0.5)
+    assert body.deepest_press()[BUTTON[end]] == pytest.approx(13, abs=0.5)
     assert body.deepest_press()[1 - BUTTON[end]] < 0.1
 
 

@@ -47,7 +47,7 @@ def test_ranges_hold_what_occurs_and_not_much_more(body, who, minimum_jerk, rng)
     strokes = [(a, b) for a in CORNERS for b in CORNERS if a != b]
     sensed = np.concatenate([list(who(body, *stroke, minimum_jerk, rng)) for stroke in strokes])
     units = CHANNELS.to_unit(sensed)[:, 2:] if who is demonstrate else CHANNELS.to_unit(sensed)
-    assert units.min() >= 0.1 and units.max() <= 0.9
+    assert units.min() >= 0.1 and units.max() <= 0.9, units.max(axis=0)
     assert (np.ptp(units, axis=0) > 0.8 * 0.6).all()
 
 

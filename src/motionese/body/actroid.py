@@ -15,12 +15,12 @@ from motionese.errors import MotionError
 
 CHANNELS = Channels(
     [
-        Channel("shoulder", "rad", 0.05, 0.72),
+        Channel("shoulder", "rad", 0.05, 0.78),
         Channel("armpit", "rad", -0.30, 0.30),
         Channel("pan", "rad", -0.70, -0.05),
         Channel("tilt", "rad", 0.38, 0.92),
-        Channel("u", "px", -9.0, 9.0),
-        Channel("v", "px", -9.0, 9.0),
+        Channel("u", "px", -10.0, 10.0),
+        Channel("v", "px", -10.0, 10.0),
     ]
 )
 """What the body senses, with ranges a little wider than what occurs in the experiment's motions."""

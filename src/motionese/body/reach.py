@@ -86,8 +86,8 @@ def beyond_tolerance(
 CORNER_POSTURES: dict[str, Float[ndarray, "2"]] = {
     "UR": np.radians([8.0, -12.6]),
     "UL": np.radians([8.0, 12.6]),
-    "LR": np.radians([33.5, -12.6]),
-    "LL": np.radians([33.5, 12.6]),
+    "LR": np.radians([33.9, -12.6]),
+    "LL": np.radians([33.9, 12.6]),
 }
 """Where the arm stands in the corners [rad]; it holds a button down in LR and LL, so the angles to
 command there lie further down (`Actroid.command_reaching`)."""

@@ -104,17 +104,7 @@ def _single(override: str, table: Table) -> Table:
     path = name.strip().split(".")
     if not equals:
         raise SettingError(f"--set takes name=value, got '{override}'")
-    here: Any = table
-    for depth, part in enumerate(path):
-        group = ".".join(path[:depth])
-        if group in OPEN_GROUPS:
-            break
-        if not isinstance(here, Mapping) or (part not in here and part not in _optional(group)):
-            known = _known(path[:depth])
-            raise SettingError(unknown("setting", ".".join(path[: depth + 1]), known))
-        here = here.get(part, {})
-    if isinstance(here, Mapping) and path[-1] in here and ".".join(path) not in OPEN_GROUPS:
-        raise SettingError(f"'{name}' is a group of settings: {', '.join(here)}")
+    _check_name(path, table)
     try:
         value = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
@@ -122,6 +112,21 @@ def _single(override: str, table: Table) -> Table:
     for part in reversed(path):
         value = {part: value}
     return dict(value)
+
+
+def _check_name(path: list[str], table: Table) -> None:
+    """Check that a setting of this name exists and is not a whole group of settings."""
+    here: Any = table
+    for depth, part in enumerate(path):
+        group = ".".join(path[:depth])
+        if group in OPEN_GROUPS:
+            return
+        if not isinstance(here, Mapping) or (part not in here and part not in _optional(group)):
+            known = _known(path[:depth])
+            raise SettingError(unknown("setting", ".".join(path[: depth + 1]), known))
+        here = here.get(part)
+    if isinstance(here, Mapping) and ".".join(path) not in OPEN_GROUPS:
+        raise SettingError(f"'{'.'.join(path)}' is a group of settings: {', '.join(here)}")
 
 
 def _known(path: list[str]) -> list[str]:

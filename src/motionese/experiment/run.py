@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import jax
 import numpy as np
 
 from motionese.experiment.checkpoint import (
@@ -43,6 +42,15 @@ class Run:
     condition: Condition
     seed: int
     folder: Path
+
+    @property
+    def name(self) -> str:
+        """How people are told of it, such as 'TD/MD seed 100'."""
+        return f"{self.condition.name} seed {self.seed}"
+
+    def loops_done(self) -> int:
+        """Return the number of its last whole loop, 0 before the first."""
+        return len(list(self.folder.glob("loop-*.safetensors")))
 
     def ended(self) -> Row | None:
         """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not."""
@@ -100,19 +108,25 @@ def _next_loop(run: Run, scene: Scene, before: Checkpoint | None) -> Checkpoint:
     )
 
 
-def _born(run: Run, scene: Scene) -> Learner:
-    """Draw the network, of all levels or of IO and Cf alone, and let it learn from babbling."""
-    settings = scene.settings
-    levels = settings.network.drawn_levels()
-    network = MTRNN(
-        levels if run.condition.structuring == "MND" else levels[:2],
-        key=key_for(run.seed, "network"),
-        gain=settings.network.gain,
-        scale=settings.network.scale,
-        learned_bias=settings.network.learned_bias,
-        initial_io=settings.network.initial_io,
+def newborn(condition: Condition, scene: Scene) -> MTRNN:
+    """Draw the network of a scene's seed, of all levels (MND) or of IO and Cf alone (MD)."""
+    settings = scene.settings.network
+    levels = settings.drawn_levels()
+    return MTRNN(
+        levels if condition.structuring == "MND" else levels[:2],
+        key=key_for(scene.seed, "network"),
+        gain=settings.gain,
+        scale=settings.scale,
+        learned_bias=settings.learned_bias,
+        initial_io=settings.initial_io,
         channels=scene.body.channels,
     )
+
+
+def _born(run: Run, scene: Scene) -> Learner:
+    """Draw the network, and let it learn from babbling."""
+    settings = scene.settings
+    network = newborn(run.condition, scene)
     learner = Learner(network)
     if not settings.babbling.movements:
         return learner
@@ -152,8 +166,3 @@ def _finish(run: Run, scene: Scene, last: Checkpoint) -> Row:
     }
     write_whole(run.folder / ENDED, json.dumps(ended, indent=1))
     return ended
-
-
-def use_one_core() -> None:
-    """Keep JAX to one thread: networks this small are faster so, and runs share the machine."""
-    jax.config.update("jax_num_cpu_devices", 1)

@@ -1,0 +1,149 @@
+"""Many runs at once: processes of one core each, restarted when they die, told of as they go."""
+
+import logging
+import os
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from itertools import chain, islice
+
+import dask
+from distributed import Client, Future, LocalCluster, as_completed, get_worker
+from distributed.scheduler import KilledWorker
+
+from motionese.errors import MotioneseError, StorageError
+from motionese.experiment.one_core import one_core
+from motionese.experiment.run import Run, go_through
+from motionese.experiment.settings import Settings
+
+LOOPS = "loops"
+"""The topic under which workers tell of their loops."""
+
+
+class UnfinishedRunsError(MotioneseError):
+    """Runs that could not go on, each with its reason; what was finished is kept."""
+
+
+def go_through_all(
+    runs: Sequence[Run],
+    settings: Settings,
+    workers: int,
+    *,
+    loop_done: Callable[[Run, int], None],
+    run_ended: Callable[[Run, str], None],
+) -> list[str]:
+    """Do what is left of many runs; a run that cannot go on does not keep the others from it.
+
+    Args:
+        runs: The runs; those that are finished cost nothing.
+        settings: All settings.
+        workers: How many runs at once, each in a process of its own.
+        loop_done: Called with a run and its last whole loop, also when it begins.
+        run_ended: Called with a run and why it could not go on, or "".
+
+    Returns:
+        For every run that could not go on, a sentence why.
+    """
+    waiting = iter(longest_first(runs, settings))
+    of_key: dict[str, Run] = {}
+    failures = []
+    with _client(min(workers, len(runs))) as client:
+
+        def begin() -> list[Future]:
+            """Hand the next run to a worker, if one is left."""
+            for run in islice(waiting, 1):
+                future = client.submit(_go_through, run, settings, key=run.name, pure=False)
+                of_key[future.key] = run
+                return [future]
+            return []
+
+        client.subscribe_topic(LOOPS, lambda event: loop_done(of_key[event[1][0]], event[1][1]))
+        going = as_completed(list(chain.from_iterable(begin() for _ in range(workers))))
+        for future in going:
+            run = of_key[future.key]
+            failure = _failure(future)
+            run_ended(run, failure)
+            if failure:
+                failures.append(f"{run.name}: {failure}")
+            going.update(begin())
+    return failures
+
+
+def longest_first(runs: Sequence[Run], settings: Settings) -> list[Run]:
+    """Return the runs that have not ended, so ordered that workers finish at about the same time.
+
+    A run is longer the more loops are left, and among those of one seed the longer its lessons.
+    """
+
+    def key(run: Run) -> tuple[int, int, int]:
+        lessons = settings.lessons(run.condition.teaching)
+        primitives = sum(len(motion.primitives) for lesson in lessons for motion in lesson)
+        return run.loops_done(), run.seed, -primitives
+
+    return sorted((run for run in runs if not run.ended()), key=key)
+
+
+def _go_through(run: Run, settings: Settings) -> str:
+    """Do a run in a worker; return why it cannot go on, or ""."""
+
+    def told(loop: int) -> None:
+        get_worker().log_event(LOOPS, (run.name, loop))
+
+    told(run.loops_done())
+    try:
+        go_through(run, settings, told)
+    except StorageError as error:
+        return (
+            f"{error}; remove it and the checkpoints of later loops, and the same command goes on "
+            "from the loop before"
+        )
+    except MotioneseError as error:
+        return str(error)
+    except OSError as error:
+        return f"{error.filename or run.folder}: {error.strerror}; the same command goes on"
+    return ""
+
+
+def _failure(future: Future) -> str:
+    """Return why a run could not go on, or ""; anything unforeseen is raised."""
+    try:
+        return str(future.result())
+    except KilledWorker:
+        return (
+            "its process was killed again and again, perhaps for want of memory; "
+            "the same command goes on from its last whole loop"
+        )
+
+
+@contextmanager
+def _client(workers: int) -> Iterator[Client]:
+    quiet = {"logging.distributed": "critical"}
+    with dask.config.set(quiet), _cluster(workers) as cluster, Client(cluster) as client:
+        try:
+            yield client
+        except BaseException:
+            # A worker that was asked to stop would finish its loop first; a checkpoint suffices.
+            for nanny in cluster.workers.values():
+                nanny.auto_restart = False
+                if nanny.pid:
+                    with suppress(ProcessLookupError):
+                        os.kill(nanny.pid, signal.SIGKILL)
+            raise
+
+
+def _cluster(workers: int) -> LocalCluster:
+    # Ctrl-C reaches the whole group of processes, but is for the first one alone: threads and
+    # processes made while it is blocked keep it blocked, workers that are restarted included.
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        return LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=0,
+            dashboard_address=None,
+            silence_logs=logging.CRITICAL,
+            env=one_core(),
+        )
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

@@ -1,0 +1,168 @@
+"""A run folder: its settings, what it was made with, a folder per run; written by one process.
+
+Everything is written whole, and the lock is the operating system's: after a kill at any moment
+the folder is free, and holds what was finished.
+"""
+
+import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from filelock import FileLock, Timeout
+
+from motionese.errors import RunFolderError
+from motionese.experiment.conditions import Condition
+from motionese.experiment.environment import environment
+from motionese.experiment.reading import differences
+from motionese.experiment.run import Run
+from motionese.experiment.settings import Settings
+from motionese.files import write_whole
+
+FORMAT, VERSION = "motionese-run", 1
+SETTINGS, ENVIRONMENT = "settings.json", "environment.json"
+LOCK, HOLDER = ".lock", ".lock-holder"
+REPORT = "report.html"
+
+Facts = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class RunFolder:
+    """A run folder that this process may write to.
+
+    Attributes:
+        path: Where it is.
+        changed: What it was made with before and is not now, each as 'name: was → now'.
+    """
+
+    path: Path
+    changed: tuple[str, ...] = ()
+
+    def run(self, condition: Condition, seed: int) -> Run:
+        """Return the run of a condition and a seed."""
+        return Run(condition, seed, self.path / condition.folder / f"seed-{seed}")
+
+
+@contextmanager
+def open_run_folder(path: Path, settings: Settings, preset: str) -> Iterator[RunFolder]:
+    """Make a run folder, or go on with one that has the same settings; others are kept out.
+
+    Args:
+        path: The folder; it may be missing or empty.
+        settings: The settings of all its runs.
+        preset: What the settings were made from, for the record.
+
+    Raises:
+        RunFolderError: It is in use, not ours, of other settings, or cannot be written to.
+    """
+    if path.exists():
+        _check_ours(path)
+    with _alone(path):
+        try:
+            folder = _begun(path, settings, preset)
+        except OSError as error:
+            raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
+        yield folder
+
+
+def _begun(path: Path, settings: Settings, preset: str) -> RunFolder:
+    """Write what stands beside the runs, or check that it is the same."""
+    now = settings.model_dump(mode="json")
+    if (path / SETTINGS).exists():
+        _check_same(path, run_settings(path), now)
+        # What a killed process had not finished writing.
+        for part in path.rglob(".*.part"):
+            part.unlink()
+    else:
+        facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
+        write_whole(path / SETTINGS, json.dumps(facts, indent=1))
+    return RunFolder(path, _record_environment(path))
+
+
+def run_settings(path: Path) -> Facts:
+    """Return the settings of a run folder; `RunFolderError` if it is none."""
+    if not path.is_dir():
+        raise RunFolderError(f"{path} is no run folder: there is no such folder")
+    if not (path / SETTINGS).is_file():
+        raise RunFolderError(f"{path} is no run folder: it has no {SETTINGS}")
+    try:
+        facts = json.loads((path / SETTINGS).read_text())
+    except (OSError, ValueError) as error:
+        raise RunFolderError(f"{path / SETTINGS}: cannot be read: {error}") from error
+    if not isinstance(facts, dict) or facts.get("format") != FORMAT:
+        raise RunFolderError(f"{path / SETTINGS} was not written by motionese")
+    if facts.get("version") != VERSION:
+        raise RunFolderError(
+            f"{path}: run folder of format {facts.get('version')}, this version of motionese "
+            f"reads {VERSION}; install a newer one"
+        )
+    return dict(facts["settings"])
+
+
+def _check_ours(path: Path) -> None:
+    if not path.is_dir():
+        raise RunFolderError(f"{path} is a file; a run folder must be a folder, choose another")
+    try:
+        names = [p.name for p in path.iterdir()]
+    except OSError as error:
+        raise RunFolderError(f"{path} cannot be read: {error.strerror}") from error
+    # A process may have been killed before it wrote the settings.
+    foreign = [n for n in names if n not in (LOCK, HOLDER) and not n.endswith(".part")]
+    if SETTINGS not in names and foreign:
+        raise RunFolderError(
+            f"{path} is not empty and no run folder (it has no {SETTINGS}); choose another"
+        )
+
+
+def _check_same(path: Path, was: Facts, now: Facts) -> None:
+    changes = differences(was, now)
+    if changes:
+        raise RunFolderError(
+            f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
+        )
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    lock, holder = FileLock(path / LOCK, blocking=False), path / HOLDER
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        lock.acquire()
+        holder.write_text(str(os.getpid()))
+    except Timeout as error:
+        raise RunFolderError(
+            f"{path} is in use by another process{_process(holder)}; "
+            "wait until it has ended, or choose another --out"
+        ) from error
+    except OSError as error:
+        raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
+    try:
+        yield
+    finally:
+        holder.unlink(missing_ok=True)
+        lock.release()
+
+
+def _process(holder: Path) -> str:
+    try:
+        return f" (number {holder.read_text()})"
+    except OSError:
+        return ""
+
+
+def _record_environment(path: Path) -> tuple[str, ...]:
+    """Write what the folder is made with; changes since the beginning are added, never replaced."""
+    now, file = environment(), path / ENVIRONMENT
+    facts = json.loads(file.read_text()) if file.is_file() else now
+    changed = tuple(differences({name: facts.get(name) for name in now}, now))
+    told = list(facts.get("changed", ()))
+    added = [change for change in changed if change not in told]
+    if added:
+        facts["changed"] = told + added
+    if added or not file.is_file():
+        write_whole(file, json.dumps(facts, indent=1))
+    return changed
