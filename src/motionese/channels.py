@@ -81,7 +81,7 @@ class Channels(Sequence[Channel]):
         """Map the unit interval, last axis the channels, back to the channels' units."""
         self._check_width(values)
         share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
-        return self._low + self._span * share
+        return np.asarray(self._low + self._span * share)
 
     def _check_width(self, values: Float[ndarray, "*shape"]) -> None:
         if values.ndim == 0 or values.shape[-1] != len(self):

@@ -5,7 +5,7 @@ shown can be imitated exactly, as when a caregiver adapts to a child's arm.
 """
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -45,6 +45,7 @@ class Demonstrating(BaseModel):
         return len(motion.primitives) * (self.stroke_steps + self.rest_steps)
 
 
+@runtime_checkable
 class Caregiver(Protocol):
     """Whoever shows motions: the scripted caregiver, or recorded demonstrations."""
 
@@ -107,6 +108,6 @@ class RecordedCaregiver:
         return np.asarray(paths[int(rng.integers(len(paths)))])
 
 
-def minimum_jerk(phase: Float[ndarray, " T"]) -> Float[ndarray, " T"]:
+def minimum_jerk(phase: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
     """Return the share of a stroke done at a share of its duration (Flash & Hogan 1985)."""
     return np.asarray(phase**3 * (10 - 15 * phase + 6 * phase**2))

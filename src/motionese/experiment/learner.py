@@ -1,6 +1,6 @@
 """What a robot has become: its network and the experiences it learns from."""
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,7 +40,7 @@ class Learner:
     network: MTRNN
     experiences: tuple[Experience, ...] = ()
 
-    def remembering(self, loop: int, memory: int, rehearsed: Sequence[str]) -> "Learner":
+    def remembering(self, loop: int, memory: int, rehearsed: Collection[str]) -> "Learner":
         """Return the learner with the experiences of its last loops.
 
         Args:

@@ -1,6 +1,6 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
-from motionese.learning.generate import activity, closed_loop_errors, generate
+from motionese.learning.generate import activity, generate
 from motionese.learning.motions import Batch, Motions
 from motionese.learning.recognise import Found, recognise, recognise_all
 from motionese.learning.settings import Recognition, Training
@@ -18,7 +18,6 @@ __all__ = [
     "Status",
     "Training",
     "activity",
-    "closed_loop_errors",
     "generate",
     "load",
     "recognise",

@@ -1,4 +1,4 @@
-"""Generation in closed loop: from initial states alone, the network fed with its own predictions."""
+"""Generation in closed loop: from initial states, the network fed with its own predictions."""
 
 import equinox as eqx
 import jax
@@ -7,8 +7,9 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy import ndarray
 
+from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
-from motionese.learning.motions import Batch, Motions
+from motionese.learning.motions import Batch
 from motionese.learning.objective import predictions
 from motionese.network import MTRNN, rollout
 
@@ -85,20 +86,17 @@ def _outputs(network: MTRNN, initial: Array, sensed: Array, share: Array) -> Arr
 
 
 def closed_loop_errors(
-    network: MTRNN, motions: Motions, initial_states: Float[ndarray, "S N"]
+    predicted: Float[ndarray, "S T D"], batch: Batch, channels: Channels
 ) -> Float[ndarray, "S D"]:
-    """Return the root mean squared error of every motion in closed loop, in the channels' units.
+    """Return every motion's root mean squared error in the channels' units.
 
     A channel that is observed nowhere after the first row has the error NaN: it is not known.
     """
-    batch = motions.batch()
-    predicted = predicted_in_closed_loop(
-        network, batch, jnp.asarray(initial_states, network.weights.dtype)
-    )
-    squared = np.asarray(((predicted - batch.sensed) ** 2 * batch.observed)[:, 1:].sum(1))
-    counted = np.asarray(batch.observed[:, 1:].sum(1))
+    observed = np.asarray(batch.observed)[:, 1:]
+    squared = ((predicted - np.asarray(batch.sensed))[:, 1:] ** 2 * observed).sum(1)
+    counted = observed.sum(1)
     mean = np.divide(squared, counted, out=np.full(squared.shape, np.nan), where=counted > 0)
-    return np.asarray(np.sqrt(mean) * motions.channels.interval_widths)
+    return np.asarray(np.sqrt(mean) * channels.interval_widths)
 
 
 @eqx.filter_jit

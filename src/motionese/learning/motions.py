@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 from numpy import ndarray
 
 from motionese.channels import Channel, Channels
-from motionese.errors import ChannelError, MotionError
+from motionese.errors import ChannelError, MotionError, unknown
 
 MARGIN = 0.05
 """How far a range taken from data reaches beyond it, as a share of its width."""
@@ -78,7 +78,8 @@ class Motions:
         Raises:
             MotionError: No motions; a motion of fewer than two rows, of another width, or with a
                 value that is observed and not finite.
-            ChannelError: A channel that never changes and has no range given.
+            ChannelError: A channel that never changes and has no range given, or a unit or range
+                of a channel that is not there.
         """
         if not arrays:
             raise MotionError("no motions given; at least one is needed")
@@ -115,6 +116,10 @@ class Motions:
         masks = tuple(mask & seen for mask in self.observed)
         return Motions(self.values, masks, self.channels, self.rate_hz, self.names)
 
+    def scaled_by(self, channels: Channels) -> "Motions":
+        """Return the same values, to be mapped to the unit interval by other channels."""
+        return Motions(self.values, self.observed, channels, self.rate_hz, self.names)
+
     def batch(self, length: int | None = None, capacity: int | None = None) -> Batch:
         """Return the motions padded to one length.
 
@@ -122,8 +127,16 @@ class Motions:
             length: Rows to pad to; the longest motion's where left out.
             capacity: Motions to pad to with empty ones, so that batches of different numbers run
                 through the same compiled code; no padding where left out.
+
+        Raises:
+            MotionError: The motions do not fit into so many rows or motions.
         """
         rows, count = length or max(self.lengths), capacity or len(self)
+        if rows < max(self.lengths) or count < len(self):
+            raise MotionError(
+                f"{len(self)} motions of up to {max(self.lengths)} rows "
+                f"do not fit into {count} of {rows} rows"
+            )
         sensed = np.full((count, rows, len(self.channels)), 0.5)
         observed = np.zeros(sensed.shape)
         for i, (value, mask) in enumerate(zip(self.values, self.observed, strict=True)):
@@ -177,6 +190,9 @@ def _channels_of(
     units: Mapping[str, str],
     ranges: Mapping[str, tuple[float, float]],
 ) -> Channels:
+    for name in (*units, *ranges):
+        if name not in labels:
+            raise ChannelError(unknown("channel", name, labels))
     channels = []
     for column, name in enumerate(labels):
         if name in ranges:

@@ -22,14 +22,17 @@ def update_rule(name: Optimiser, rate: float, momentum: float) -> optax.Gradient
 def _training_rule(
     name: Optimiser, weights: float, initial: float, momentum: float, clip: float, bias: bool
 ) -> optax.GradientTransformation:
+    # What is not learned is left out before the clip, whose norm it must not enlarge.
+    fixed = {"weights": False, "bias": not bias, "initial": False}
+    steps = [optax.masked(optax.set_to_zero(), fixed)]
+    if clip:
+        steps.append(optax.clip_by_global_norm(clip))
     by_group = {
         "weights": update_rule(name, weights, momentum),
         "initial": update_rule(name, initial, momentum),
-        "fixed": optax.set_to_zero(),
     }
-    groups = {"weights": "weights", "bias": "weights" if bias else "fixed", "initial": "initial"}
-    rule = optax.multi_transform(by_group, groups)
-    return optax.chain(optax.clip_by_global_norm(clip), rule) if clip else rule
+    groups = {"weights": "weights", "bias": "weights", "initial": "initial"}
+    return optax.chain(*steps, optax.multi_transform(by_group, groups))
 
 
 def training_rule(settings: Training, learned_bias: bool) -> optax.GradientTransformation:

@@ -4,17 +4,19 @@ Of each motion any channels may be observed at any steps. The descent starts fro
 states at once, those given and random ones, and the one that ends with the smallest error is kept.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 import optax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 from numpy import ndarray
 
+from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
+from motionese.learning.carried import carried
 from motionese.learning.generate import closed_loop_errors, predicted_in_closed_loop
 from motionese.learning.motions import Batch, Motions
 from motionese.learning.objective import initial_potentials, predictions, squared_errors
@@ -34,7 +36,7 @@ class Found:
         residual: Root mean squared error of every observed channel in its unit; NaN for a channel
             that was not observed. [D]
         error: The residual over the observed channels, as a share of their ranges.
-        loss: Equation (3) over what was observed.
+        loss: Equation (3) over what was observed, and the penalty.
         start: Which start was the best, the given ones counted first.
         status: Recognised, not recognised, or diverged.
     """
@@ -62,7 +64,8 @@ def recognise(
 
     Args:
         network: A trained network.
-        motion: One motion, or its values [T, D] in the channels' units.
+        motion: One motion, or its values [T, D] in the channels' units; what is not looked at may
+            be anything, NaN included.
         observed: Names of the channels that are looked at; all if left out.
         rows: The stretch of time that is looked at; all if left out. Row 0 stays the time of u_0.
         starts: Initial states to start from beside the random ones.
@@ -72,17 +75,24 @@ def recognise(
     if not isinstance(motion, Motions):
         if network.channels is None:
             raise ChannelError("the network carries no channels; give the motion as Motions")
-        motion = Motions.from_arrays([motion], network.channels, rate_hz=1.0)
+        values = np.array(motion, dtype=np.float64, ndmin=1)
+        seen = _looked_at(len(values), network.channels, observed, rows)
+        motion = Motions.from_arrays([values], network.channels, rate_hz=1.0, observed=[seen])
     if len(motion) != 1:
         raise SettingError(f"recognise takes one motion, got {len(motion)}; see recognise_all")
-    if observed is not None:
-        motion = motion.showing(observed)
-    if rows is not None:
-        seen = np.zeros_like(motion.observed[0])
-        seen[rows] = motion.observed[0][rows]
-        motion = Motions(motion.values, (seen,), motion.channels, motion.rate_hz, motion.names)
+    seen = motion.observed[0] & _looked_at(motion.lengths[0], motion.channels, observed, rows)
+    motion = replace(motion, observed=(seen,))
     given = None if starts is None else np.asarray(starts)[None]
     return recognise_all(network, motion, starts=given, settings=settings, key=key)[0]
+
+
+def _looked_at(
+    length: int, channels: Channels, observed: list[str] | None, rows: slice | None
+) -> Bool[ndarray, "T D"]:
+    mask = np.zeros((length, len(channels)), dtype=bool)
+    columns = channels.indices(channels.names if observed is None else observed)
+    mask[slice(None) if rows is None else rows, columns] = True
+    return mask
 
 
 def recognise_all(
@@ -104,12 +114,22 @@ def recognise_all(
         key: JAX random key of the random starts; needed where there are any.
         padded_to: Motions and rows to pad the batch to, so that different batches share compiled
             code.
+
+    Raises:
+        SettingError: Random starts without a key, starts of another shape, or channels or levels
+            that the network does not have.
     """
     settings = settings or Recognition()
+    network, motions = carried(network, motions)
     if key is None and settings.starts:
         raise SettingError("random starts of recognition need a key, got none")
     if starts is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
+    if starts is not None and starts.shape[::2] != (len(motions), network.size):
+        raise SettingError(
+            f"starts must have shape [{len(motions)} motions, any number, {network.size} units], "
+            f"got {starts.shape}"
+        )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
     free = _starts(network, count, starts, settings, key)
@@ -126,7 +146,7 @@ def recognise_all(
 def _starts(
     network: MTRNN,
     count: int,
-    given: Float[ndarray, "S M N"] | None,
+    given: Float[ndarray, "G H N"] | None,
     settings: Recognition,
     key: Array | None,
 ) -> Float[Array, "S M N"]:
@@ -142,6 +162,10 @@ def _starts(
         drawn = jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
         parts.append(settings.spread * drawn)
     return jnp.concatenate(parts, axis=1)
+
+
+_Descent = tuple[Array, optax.OptState, Array, Array]
+"""States, the update rule's memory, the best states so far and their loss."""
 
 
 @eqx.filter_jit
@@ -170,7 +194,7 @@ def _descend(
         each = losses(states)
         return each.sum(), each
 
-    def iteration(carry: tuple[Array, ...], _: None) -> tuple[tuple[Array, ...], None]:
+    def iteration(carry: _Descent, _: None) -> tuple[_Descent, None]:
         states, memory, best, best_loss = carry
         (_, each), slope = jax.value_and_grad(total, has_aux=True)(states)
         better = each < best_loss
@@ -184,7 +208,7 @@ def _descend(
     (states, _, best, best_loss), _ = jax.lax.scan(iteration, begin, None, length=iterations)
     last = losses(states)
     best = jnp.where((last < best_loss)[:, None], states, best).reshape(motions, starts, units)
-    by_start = jnp.minimum(jnp.nan_to_num(last, nan=jnp.inf), best_loss).reshape(motions, starts)
+    by_start = jnp.fmin(last, best_loss).reshape(motions, starts)
     chosen = jnp.take_along_axis(best, by_start.argmin(1)[:, None, None], axis=1)[:, 0]
     return initial_potentials(network, batch, chosen), by_start
 
@@ -198,7 +222,7 @@ def _judged(
     settings: Recognition,
 ) -> list[Found]:
     paths = np.asarray(predicted_in_closed_loop(network, batch, jnp.asarray(states)))
-    residuals = closed_loop_errors(network, motions, states[: len(motions)])
+    residuals = closed_loop_errors(paths, batch, motions.channels)
     ranges = np.array([c.high - c.low for c in motions.channels])
     found = []
     for i, length in enumerate(motions.lengths):

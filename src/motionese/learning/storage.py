@@ -4,12 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from motionese.errors import StorageError
+from motionese.errors import StorageError, unknown
 from motionese.learning.status import Ending, Status
 from motionese.learning.train import Fit
 from motionese.network import read_network, write_network
 
 ARRAYS = ("initial_states", "losses", "validation_losses", "closed_loop_error")
+FACTS = ("names", "status", "sentence")
 
 
 def save(path: str | Path, fit: Fit) -> None:
@@ -27,8 +28,12 @@ def load(path: str | Path) -> Fit:
     """Read what `save` wrote; `StorageError` if the file is not a fit, or cut short."""
     network, arrays, facts = read_network(Path(path))
     missing = [name for name in ARRAYS if name not in arrays]
-    if missing or "names" not in facts:
+    missing += [name for name in FACTS if name not in facts]
+    if missing:
         raise StorageError(f"{path}: a network without a fit; {', '.join(missing)} missing")
+    endings = [ending.value for ending in Ending]
+    if facts["status"] not in endings:
+        raise StorageError(f"{path}: {unknown('status', facts['status'], endings)}")
     states = arrays["initial_states"]
     if states.shape != (len(facts["names"]), network.size):
         raise StorageError(
@@ -39,5 +44,5 @@ def load(path: str | Path) -> Fit:
         network=network,
         names=tuple(facts["names"]),
         status=Status(Ending(facts["status"]), facts["sentence"]),
-        **arrays,
+        **{name: arrays[name] for name in ARRAYS},
     )

@@ -12,7 +12,8 @@ from jaxtyping import Array, Float
 from numpy import ndarray
 
 from motionese.errors import SettingError
-from motionese.learning.generate import closed_loop_errors
+from motionese.learning.carried import carried
+from motionese.learning.generate import closed_loop_errors, predicted_in_closed_loop
 from motionese.learning.motions import Batch, Motions
 from motionese.learning.objective import initial_potentials, predictions, squared_errors
 from motionese.learning.optimisers import training_rule
@@ -54,7 +55,10 @@ class Fit:
 
 
 class _State(eqx.Module):
-    """What an epoch hands to the next; `sound` turns false for good at the first non-finite one."""
+    """What an epoch hands to the next.
+
+    At the first epoch that is not finite `sound` turns false for good, and all else stays.
+    """
 
     parameters: dict[str, Array]
     memory: optax.OptState
@@ -92,17 +96,25 @@ def train(
         progress: Called between chunks with the epochs done and the last loss.
 
     Raises:
-        SettingError: Channels do not fit the network, or an unknown level in bounds or noise.
+        SettingError: Channels or initial states do not fit the network, an unknown level in
+            bounds or noise, noise without a key, or no epochs.
     """
     settings = settings or Training()
     epochs = settings.epochs if epochs is None else epochs
-    network = with_channels(network, motions)
+    if epochs < 1:
+        raise SettingError(f"epochs must be ≥ 1, got {epochs}")
+    network, motions = carried(network, motions)
     noise = network.per_unit(settings.noise, 0.0) if any(settings.noise.values()) else None
     if key is None and noise is not None:
         raise SettingError("training with state noise needs a key, got none")
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
     rule = training_rule(settings, network.learned_bias)
+    if initial_states is not None and initial_states.shape != (len(motions), network.size):
+        raise SettingError(
+            f"initial states must have shape {(len(motions), network.size)}, "
+            f"got {initial_states.shape}"
+        )
     state = _begin(network, batch, initial_states, rule)
     held_out = _HeldOut(validation) if validation else None
     losses: list[float] = []
@@ -124,7 +136,7 @@ def train(
             held_out.recognise(_trained(network, state))
         if progress:
             progress(len(losses), losses[-1])
-        ended = _judged(losses, bool(state.sound), settings, held_out)
+        ended = _judged(losses, state, settings, held_out)
         if ended:
             status = ended
             break
@@ -143,21 +155,6 @@ class _HeldOut:
         found = recognise_all(network, self.motions, starts=self.states, settings=VALIDATING)
         self.states = np.stack([f.initial_state for f in found])[:, None]
         self.losses.append(sum(f.loss for f in found))
-
-
-def with_channels(network: MTRNN, motions: Motions) -> MTRNN:
-    """Return the network carrying the motions' channels; `SettingError` if they do not fit."""
-    if network.channels is not None and network.channels.names != motions.channels.names:
-        raise SettingError(
-            f"the network's channels are {', '.join(network.channels.names)}, "
-            f"the motions' {', '.join(motions.channels.names)}"
-        )
-    if network.io_size != len(motions.channels):
-        raise SettingError(
-            f"the network has {network.io_size} IO units, "
-            f"the motions {len(motions.channels)} channels"
-        )
-    return network if network.channels is not None else network.carrying(motions.channels)
 
 
 def _begin(
@@ -199,15 +196,18 @@ def _epochs(
     def disturbance(epoch: Array) -> Array | None:
         if noise is None:
             return None
-        shape = (*batch.sensed.shape[:2], network.size)
-        return noise * jax.random.normal(jax.random.fold_in(key, epoch), shape, noise.dtype)
+        # One key a motion, so that its noise does not depend on what it is padded to.
+        of_epoch, (count, rows) = jax.random.fold_in(key, epoch), batch.sensed.shape[:2]
+        keys = jax.vmap(lambda i: jax.random.fold_in(of_epoch, i))(jnp.arange(count))
+        shape = (rows, network.size)
+        return noise * jax.vmap(lambda k: jax.random.normal(k, shape, noise.dtype))(keys)
 
     def epoch(state: _State, _: None) -> tuple[_State, Array]:
         value, gradient = jax.value_and_grad(loss)(state.parameters, disturbance(state.epoch))
         updates, memory = rule.update(gradient, state.memory, state.parameters)
         parameters = optax.apply_updates(state.parameters, updates)
         parameters["initial"] = jnp.clip(parameters["initial"], -bound, bound)
-        sound = state.sound & jnp.isfinite(value) & jnp.isfinite(optax.global_norm(parameters))
+        sound = state.sound & jnp.isfinite(value) & jnp.isfinite(optax.tree.norm(parameters))
         following = _State(parameters, memory, state.epoch + 1, sound)
         kept = jax.tree.map(lambda new, old: jnp.where(sound, new, old), following, state)
         return eqx.tree_at(lambda s: s.sound, kept, sound), value
@@ -216,15 +216,13 @@ def _epochs(
 
 
 def _judged(
-    losses: list[float], sound: bool, settings: Training, held_out: _HeldOut | None
+    losses: list[float], state: _State, settings: Training, held_out: _HeldOut | None
 ) -> Status | None:
     """Return how training has ended, or None while it goes on."""
-    if not sound:
-        wrong = np.flatnonzero(~np.isfinite(losses))
-        epoch = int(wrong[0]) if len(wrong) else len(losses)
+    if not state.sound:
         return Status(
             Ending.DIVERGED,
-            f"the loss or a weight was no longer finite at epoch {epoch}; "
+            f"the loss or a weight was no longer finite at epoch {int(state.epoch)}; "
             "what was learned before is kept",
         )
     watched, patience = losses, settings.patience
@@ -251,13 +249,15 @@ def _fit(
     status: Status,
 ) -> Fit:
     free = state.parameters["initial"]
-    initial = np.asarray(initial_potentials(network, batch, free))[: len(motions)]
+    initial = np.asarray(initial_potentials(network, batch, free))
+    predicted = np.asarray(predicted_in_closed_loop(network, batch, free))
+    errors = closed_loop_errors(predicted, batch, motions.channels)
     return Fit(
         network=network,
-        initial_states=initial,
+        initial_states=initial[: len(motions)],
         names=motions.names,
         losses=np.asarray(losses),
         validation_losses=np.asarray(held_out.losses if held_out else []),
-        closed_loop_error=closed_loop_errors(network, motions, initial),
+        closed_loop_error=errors[: len(motions)],
         status=status,
     )

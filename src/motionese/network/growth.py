@@ -38,7 +38,7 @@ def grow(
     if not (math.isfinite(influence) and influence >= 0):
         raise SettingError(f"the influence of a new level must be ≥ 0, got {influence}")
     old = network.size
-    grown = MTRNN(
+    drawn = MTRNN(
         [*network.levels, level],
         key=key,
         gain=gain,
@@ -47,12 +47,13 @@ def grow(
         initial_io=network.initial_io,
         channels=network.channels,
     )
-    return eqx.tree_at(
+    grown: MTRNN = eqx.tree_at(
         lambda n: (n.weights, n.bias, n.tau),
-        grown,
+        drawn,
         (
-            grown.weights.at[:old, old:].multiply(influence).at[:old, :old].set(network.weights),
-            grown.bias.at[:old].set(network.bias),
-            grown.tau.at[:old].set(network.tau),
+            drawn.weights.at[:old, old:].multiply(influence).at[:old, :old].set(network.weights),
+            drawn.bias.at[:old].set(network.bias),
+            drawn.tau.at[:old].set(network.tau),
         ),
     )
+    return grown

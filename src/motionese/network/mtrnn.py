@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Literal
+from typing import Literal, get_args
 
 import equinox as eqx
 import jax
@@ -64,6 +64,8 @@ class MTRNN(eqx.Module):
         self.levels = named(levels)
         if not (math.isfinite(gain) and gain >= 0):
             raise SettingError(f"the gain of the initial weights must be ≥ 0, got {gain}")
+        if initial_io not in get_args(InitialIO):
+            raise SettingError(unknown("initial_io", initial_io, get_args(InitialIO)))
         if channels is not None and len(channels) != self.levels[0].size:
             raise SettingError(
                 f"level '{self.levels[0].name}' needs one unit per channel "
@@ -103,20 +105,22 @@ class MTRNN(eqx.Module):
 
     def with_parameters(self, weights: Float[Array, "N N"], bias: Float[Array, " N"]) -> "MTRNN":
         """Return the same network with other weights and bias."""
-        return eqx.tree_at(lambda n: (n.weights, n.bias), self, (weights, bias))
+        other: MTRNN = eqx.tree_at(lambda n: (n.weights, n.bias), self, (weights, bias))
+        return other
 
     def carrying(self, channels: Channels) -> "MTRNN":
         """Return the same network, its IO units standing for these channels."""
-        other = MTRNN(
+        drawn = MTRNN(
             self.levels,
             key=jax.random.key(0),
             learned_bias=self.learned_bias,
             initial_io=self.initial_io,
             channels=channels,
         )
-        return eqx.tree_at(
-            lambda n: (n.weights, n.bias, n.tau), other, (self.weights, self.bias, self.tau)
+        other: MTRNN = eqx.tree_at(
+            lambda n: (n.weights, n.bias, n.tau), drawn, (self.weights, self.bias, self.tau)
         )
+        return other
 
     def wired_weights(self) -> Float[Array, "N N"]:
         """Return the weights with what is not wired held at 0, in value and in gradient."""

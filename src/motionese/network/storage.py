@@ -30,7 +30,10 @@ def write_network(
     structure = {
         "format": FORMAT,
         "version": VERSION,
-        "levels": [{"name": level.name, "size": level.size} for level in network.levels],
+        "levels": [
+            {"name": level.name, "size": level.size, "tau": np.asarray(level.tau).tolist()}
+            for level in network.levels
+        ],
         "channels": None if network.channels is None else [vars(c) for c in network.channels],
         "learned_bias": network.learned_bias,
         "initial_io": network.initial_io,
@@ -58,14 +61,11 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
         expected = {"weights": (units, units), "bias": (units,), "tau": (units,)}
         for name, shape in expected.items():
             _check_tensor(path, name, tensors.get(name), shape)
-        bounds = np.cumsum([0, *sizes])
         levels = [
-            Level(size, tuple(float(t) for t in tensors["tau"][low:high]), level["name"])
-            for level, size, low, high in zip(
-                structure["levels"], sizes, bounds, bounds[1:], strict=False
-            )
+            Level(size, tuple(tau) if isinstance(tau := level["tau"], list) else tau, level["name"])
+            for size, level in zip(sizes, structure["levels"], strict=True)
         ]
-        given = structure["channels"]
+        given, facts = structure["channels"], dict(structure["facts"])
         network = MTRNN(
             levels,
             key=jax.random.key(0),
@@ -83,7 +83,7 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
     return (
         eqx.tree_at(lambda n: (n.weights, n.bias, n.tau), network, tuple(own)),
         tensors,
-        structure["facts"],
+        facts,
     )
 
 

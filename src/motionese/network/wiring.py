@@ -4,7 +4,7 @@ A level is wired to itself and to its neighbours only: no weight leads from IO t
 (Yamashita & Tani 2008; Mochizuki et al. 2013, section III).
 """
 
-from typing import Literal
+from typing import Literal, get_args
 
 import jax
 import jax.numpy as jnp
@@ -12,13 +12,15 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 from numpy import ndarray
 
+from motionese.errors import SettingError, unknown
+
 Scale = Literal["fan_in", "one"]
 
 
 def wiring(sizes: tuple[int, ...]) -> Bool[ndarray, "N N"]:
     """Return which weights w_ij exist: those inside a level and between neighbouring levels."""
     level = np.repeat(np.arange(len(sizes)), sizes)
-    return np.abs(level[:, None] - level[None, :]) <= 1
+    return np.asarray(np.abs(level[:, None] - level[None, :]) <= 1)
 
 
 def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[ndarray, "N N"]:
@@ -32,6 +34,8 @@ def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[nd
             units move Cf as much as forty Cf units do. `"one"`: gain / √(units of the largest
             level) for all blocks.
     """
+    if scale not in get_args(Scale):
+        raise SettingError(unknown("scale of the initial weights", scale, get_args(Scale)))
     if scale == "fan_in":
         senders = np.repeat(np.asarray(sizes, dtype=np.float64), sizes)
     else:

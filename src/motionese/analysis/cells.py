@@ -1,0 +1,33 @@
+"""Numbers as the page writes them, and tables of such cells."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from motionese.analysis.statistics import Estimate
+
+NONE = "–"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Column headings and rows of cells."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+
+
+def number(value: float, digits: int = 2) -> str:
+    """Return a number as text, a dash where there is none."""
+    if not math.isfinite(value):
+        return NONE
+    rounded = round(value, digits) + 0.0  # no minus before a zero
+    return f"{rounded:.{digits}f}".replace("-", "−")
+
+
+def with_interval(found: Estimate, digits: int = 2) -> str:
+    """Return 'value [low, high]', the value alone where one seed is all."""
+    value = number(found.value, digits)
+    if not math.isfinite(found.low):
+        return value
+    return f"{value} [{number(found.low, digits)}, {number(found.high, digits)}]"

@@ -1,0 +1,135 @@
+"""What a run folder holds: the tables of its runs put together, and how every run ended."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy import ndarray
+
+from motionese.analysis.facts import Facts, read_facts
+from motionese.errors import RunFolderError
+from motionese.experiment.conditions import CONDITIONS, Condition
+from motionese.experiment.run import Run
+
+MEASURED = "imitation_error_cm recognition_residual_cm model_error_cm"
+PRESSED = "buttons_due buttons_pressed"
+LEADING_COLUMNS = {
+    name: columns.split()
+    for name, columns in {
+        "loops": f"condition seed loop phase motion {MEASURED} reproduction_error_cm {PRESSED} "
+        "status seconds",
+        "development": "condition seed loop levels",
+        "triples": f"condition seed motion trained {MEASURED} {PRESSED} status",
+        "slow_state_map": "condition seed primitive cs_1 cs_2",
+    }.items()
+}
+"""Columns that every table has, in this order; further ones follow as the runs wrote them."""
+
+
+@dataclass(frozen=True)
+class Collected:
+    """All ended runs of a folder.
+
+    Rows are in the order of conditions, seeds, and then as the run wrote them, so that the same
+    runs give the same tables, whenever and in whichever order they were made.
+
+    Attributes:
+        folder: The run folder.
+        runs: A row per run: condition, seed, loops, seconds, status, reason.
+        loops: A row per loop and motion.
+        development: A row per loop on the network.
+        triples: A row per new motion.
+        slow_state_map: A row per primitive and point of the map.
+        facts: Settings and environment.
+    """
+
+    folder: Path
+    runs: pd.DataFrame
+    loops: pd.DataFrame
+    development: pd.DataFrame
+    triples: pd.DataFrame
+    slow_state_map: pd.DataFrame
+    facts: Facts
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The conditions that have an ended run."""
+        present = set(self.loops["condition"])
+        return tuple(c for c in CONDITIONS if c.name in present)
+
+    def inside(self, condition: Condition, seed: int) -> dict[str, ndarray] | None:
+        """Return what was kept of a run's performances, or None."""
+        path = self.folder / condition.folder / f"seed-{seed}" / "inside.npz"
+        if not path.is_file():
+            return None
+        with np.load(path, allow_pickle=False) as kept:
+            return {name: kept[name] for name in kept.files}
+
+
+def collect(folder: Path) -> Collected:
+    """Read a run folder.
+
+    Raises:
+        RunFolderError: There is no such folder, it has no ended run, or a run lacks a table.
+    """
+    if not folder.is_dir():
+        raise RunFolderError(f"{folder}: there is no such run folder")
+    runs = [(run, run.ended()) for run in _runs(folder)]
+    ended = [run for run, end in runs if end is not None]
+    if not ended:
+        raise RunFolderError(
+            f"{folder}: no ended run in it; "
+            + (f"{len(runs)} were begun" if runs else "runs lie in folders such as TD-MD/seed-100")
+        )
+    tables = {name: _together(name, ended) for name in LEADING_COLUMNS}
+    how = pd.DataFrame([_how_it_ended(run, end) for run, end in runs])
+    return Collected(folder=folder, runs=how, facts=read_facts(folder), **tables)
+
+
+def _runs(folder: Path) -> list[Run]:
+    found = []
+    for condition in CONDITIONS:
+        numbered = [
+            (int(path.name.removeprefix("seed-")), path)
+            for path in (folder / condition.folder).glob("seed-*")
+            if path.is_dir() and path.name.removeprefix("seed-").isdecimal()
+        ]
+        found += [Run(condition, seed, path) for seed, path in sorted(numbered)]
+    return found
+
+
+def _how_it_ended(run: Run, end: dict[str, Any] | None) -> dict[str, Any]:
+    loops = len(list(run.folder.glob("loop-*.safetensors")))
+    end = end or {"status": "unfinished", "reason": f"stopped after loop {loops}"}
+    return {
+        "condition": run.condition.name,
+        "seed": run.seed,
+        "loops": loops,
+        "seconds": float(end.get("seconds", np.nan)),
+        "status": end["status"],
+        "reason": end.get("reason", ""),
+    }
+
+
+def _together(name: str, runs: list[Run]) -> pd.DataFrame:
+    leading = LEADING_COLUMNS[name]
+    read = [_table(run, name) for run in runs]
+    if not any(len(table) for table in read):
+        return pd.DataFrame(columns=leading)
+    table = pd.concat([table for table in read if len(table)], ignore_index=True)
+    others = [column for column in table.columns if column not in leading]
+    return table.reindex(columns=[*leading, *others])
+
+
+def _table(run: Run, name: str) -> pd.DataFrame:
+    path = run.folder / f"{name}.csv"
+    if not path.is_file():
+        if name in ("triples", "slow_state_map"):
+            return pd.DataFrame()  # a diverged run is not evaluated
+        raise RunFolderError(f"{path} is missing, though the run has ended: remove its ended.json")
+    try:
+        return pd.read_csv(path)
+    except pd.errors.EmptyDataError:
+        return pd.DataFrame()

@@ -1,0 +1,64 @@
+"""Where the hand went, against what was shown: every new motion of one run a condition."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from jaxtyping import Float
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy import ndarray
+
+from motionese.analysis.style import FAINT, INK, LOOKS, WIDTH
+from motionese.caregiver import BUTTONS, Demonstrating
+from motionese.experiment.conditions import Condition
+
+CAP_RADIUS_CM = 3.5
+"""Radius of a button's cap [cm]."""
+
+
+def paths(
+    kept: Mapping[Condition, Mapping[str, ndarray]], motions: list[str], manner: Demonstrating
+) -> Figure:
+    """Draw shown and performed paths as the robot sees them, its right on the right.
+
+    Args:
+        kept: What was kept of the shown run of each condition.
+        motions: The motions' names, a column each.
+        manner: Where the corners are.
+    """
+    figure = Figure(figsize=(WIDTH, 0.7 + 1.22 * len(kept)))
+    panels = figure.subplots(len(kept), len(motions), sharex=True, sharey=True, squeeze=False)
+    for row, (condition, arrays) in zip(panels, kept.items(), strict=True):
+        for axes, motion in zip(row, motions, strict=True):
+            _buttons(axes, manner)
+            if f"shown.{motion}" in arrays:
+                _draw(axes, arrays[f"shown.{motion}"], arrays[f"performed.{motion}"],
+                      LOOKS[condition.name].colour)  # fmt: skip
+            axes.set_aspect("equal")
+            axes.tick_params(labelsize=7.5, length=2)
+        row[0].set_ylabel(f"{condition.name}\nheight [cm]")
+    for axes, motion in zip(panels[0], motions, strict=True):
+        axes.set_title(motion, loc="center")
+    figure.supxlabel("to the robot's right [cm]", fontsize=9.5)
+    return figure
+
+
+def _draw(
+    axes: Axes, shown: Float[ndarray, "T 3"], performed: Float[ndarray, "T 3"], colour: str
+) -> None:
+    axes.plot(*_in_front(shown), color=FAINT, linewidth=3.2, alpha=0.55, solid_capstyle="round")
+    right, up = _in_front(performed)
+    axes.plot(right, up, color=colour, linewidth=1.4)
+    axes.plot(right[0], up[0], marker="o", color=INK, markersize=3.5)
+
+
+def _buttons(axes: Axes, manner: Demonstrating) -> None:
+    for corner in BUTTONS:
+        right, up = _in_front(manner.corner(corner)[None])
+        axes.plot([right[0] - CAP_RADIUS_CM, right[0] + CAP_RADIUS_CM], [up[0], up[0]],
+                  color=INK, linewidth=1.2)  # fmt: skip
+
+
+def _in_front(path: Float[ndarray, "T 3"]) -> Float[ndarray, "2 T"]:
+    """Return a path [m, world] as the robot sees it: to its right and up [cm]."""
+    return 100 * np.stack([-path[:, 1], path[:, 2]])

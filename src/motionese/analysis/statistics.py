@@ -1,0 +1,133 @@
+"""Statistics over seeds: intervals, paired tests, effect sizes, and verdicts computed from them.
+
+The unit is the seed: it fixes the initial weights and every demonstration, so that conditions of
+the same seed are compared in pairs. Everything resampled is resampled from a fixed generator: the
+same data give the same numbers.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+from scipy import stats
+
+from motionese.errors import TooFewSeedsError
+
+LEVEL = 0.05
+"""A test with p of at most this decides, and intervals cover 1 − this."""
+RESAMPLES = 4999
+SEED = 20130
+FEWEST = 2
+"""Seeds below which there is neither an interval nor a test."""
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A statistic over seeds with its bootstrap interval; NaN bounds where one seed is all."""
+
+    value: float
+    low: float
+    high: float
+    seeds: int
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """What paired differences say; differences are signed so that positive speaks for a claim.
+
+    Attributes:
+        value: Their mean.
+        low: Lower end of its 95 % interval.
+        high: Upper end.
+        p: Two-sided, of the sign-flip permutation test.
+        effect: Cohen's d of paired differences, mean / standard deviation.
+        seeds: How many seeds.
+    """
+
+    value: float
+    low: float
+    high: float
+    p: float
+    effect: float
+    seeds: int
+
+
+def estimate(values: Float[ndarray, " n"], statistic: Callable[..., Any] = np.median) -> Estimate:
+    """Return a statistic with its 95 % percentile bootstrap interval; NaN values are left out."""
+    kept = values[np.isfinite(values)]
+    if not len(kept):
+        return Estimate(math.nan, math.nan, math.nan, 0)
+    value = float(statistic(kept))
+    if len(kept) < FEWEST:
+        return Estimate(value, math.nan, math.nan, len(kept))
+    # Percentile rather than BCa: with few or equal values BCa has no acceleration to estimate.
+    interval = stats.bootstrap(
+        (kept,),
+        statistic,
+        n_resamples=RESAMPLES,
+        confidence_level=1 - LEVEL,
+        method="percentile",
+        vectorized=True,
+        rng=np.random.default_rng(SEED),
+    ).confidence_interval
+    return Estimate(value, float(interval.low), float(interval.high), len(kept))
+
+
+def contrast(differences: Float[ndarray, " n"], what: str) -> Contrast:
+    """Test whether paired differences are other than 0 on average.
+
+    The sign-flip permutation test assumes only that under no effect a difference is as likely as
+    its negative; it is exact up to twelve seeds. Fewer than six seeds cannot reach p ≤ 0.05.
+
+    Args:
+        differences: One per seed.
+        what: What is compared, for the error's sentence.
+
+    Raises:
+        TooFewSeedsError: There are fewer than two seeds.
+    """
+    check_seeds(len(differences), what)
+    mean = estimate(differences, np.mean)
+    test = stats.permutation_test(
+        (differences,),
+        np.mean,
+        permutation_type="samples",
+        n_resamples=RESAMPLES,
+        vectorized=True,
+        rng=np.random.default_rng(SEED),
+    )
+    spread = float(differences.std(ddof=1))
+    effect = mean.value / spread if spread else math.copysign(math.inf, mean.value)
+    if not mean.value:
+        effect = 0.0
+    return Contrast(mean.value, mean.low, mean.high, float(test.pvalue), effect, mean.seeds)
+
+
+def check_seeds(seeds: int, what: str) -> None:
+    """Raise `TooFewSeedsError` where there are too few seeds for a test."""
+    if seeds < FEWEST:
+        raise TooFewSeedsError(
+            f"a test over seeds needs at least {FEWEST} of them; {what}: got {seeds}"
+        )
+
+
+def verdict(tested: Contrast | None, seeds: int = 0) -> str:
+    """Return "holds", "does not hold", or "undecided with n seeds".
+
+    A claim is decided only where the interval leaves out 0 and the test agrees.
+
+    Args:
+        tested: The contrast, positive where it speaks for the claim; None if there is none.
+        seeds: How many seeds there were when there is no contrast.
+    """
+    if tested is not None and tested.p <= LEVEL:
+        if tested.low > 0:
+            return "holds"
+        if tested.high < 0:
+            return "does not hold"
+    count = tested.seeds if tested is not None else seeds
+    return f"undecided with {count} seed{'' if count == 1 else 's'}"

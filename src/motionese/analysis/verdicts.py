@@ -1,0 +1,73 @@
+"""What the runs say to the claims.
+
+A claim of several parts holds only if every part does (an intersection–union test), so the row that
+is reported for it is its weakest part.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from motionese.analysis.claims import Claim, Part
+from motionese.analysis.statistics import Contrast, contrast, verdict
+from motionese.errors import TooFewSeedsError
+
+COLUMNS = ["claim", "measured", "statistic", "low", "high", "p", "effect", "seeds", "verdict"]
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A claim with its weakest part and the verdict.
+
+    Attributes:
+        claim: The claim.
+        part: The part that decides it.
+        contrast: What the seeds say to that part; None with fewer than two of them.
+        seeds: How many seeds there were.
+        verdict: "holds", "does not hold" or "undecided with n seeds".
+    """
+
+    claim: Claim
+    part: Part
+    contrast: Contrast | None
+    seeds: int
+    verdict: str
+
+
+def judge(claim: Claim) -> Judgement:
+    """Test a claim: every part, of which the weakest decides."""
+    return min((_judge_part(claim, part) for part in claim.parts), key=_strength)
+
+
+def judge_alone(differences: "pd.Series[float]") -> str:
+    """Return the verdict on a difference by seed that is no part of a claim."""
+    part = Part("", differences)
+    return _judge_part(Claim("", (part,)), part).verdict
+
+
+def claims_table(results: list[Judgement]) -> pd.DataFrame:
+    """Return a row per claim."""
+    rows = []
+    for each in results:
+        c = each.contrast or Contrast(math.nan, math.nan, math.nan, math.nan, math.nan, each.seeds)
+        numbers = (c.value, c.low, c.high, c.p, c.effect, c.seeds)
+        rows.append([each.claim.text, each.part.measured, *numbers, each.verdict])
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _judge_part(claim: Claim, part: Part) -> Judgement:
+    differences = part.differences.dropna()
+    seeds = len(differences)
+    try:
+        found = contrast(differences.to_numpy(dtype=np.float64), part.measured)
+    except TooFewSeedsError:
+        return Judgement(claim, part, None, seeds, verdict(None, seeds))
+    return Judgement(claim, part, found, seeds, verdict(found))
+
+
+def _strength(part: Judgement) -> tuple[int, float]:
+    rank = ("does not hold", "undecided", "holds")
+    place = next(i for i, word in enumerate(rank) if part.verdict.startswith(word))
+    return place, part.contrast.effect if part.contrast is not None else -math.inf

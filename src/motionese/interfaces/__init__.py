@@ -1,0 +1,1 @@
+"""How people and other programs use the package: the command line."""

@@ -1,0 +1,38 @@
+import json
+
+import pytest
+from invented_runs import write_run
+
+from motionese.errors import RenderingError
+from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment.reading import read_settings
+
+
+@pytest.fixture
+def make_run():
+    return write_run
+
+
+@pytest.fixture(scope="session")
+def eight_seeds(tmp_path_factory):
+    """Four conditions of eight seeds each, in which the paper's claims hold."""
+    root = tmp_path_factory.mktemp("eight")
+    for condition in CONDITIONS:
+        for seed in range(8):
+            write_run(root, condition, seed)
+    settings = read_settings().model_dump(mode="json")
+    settings["network"]["gain"] = 3.25
+    facts = {"format": "motionese-run", "version": 1, "preset": "<mine>", "settings": settings}
+    (root / "settings.json").write_text(json.dumps(facts))
+    (root / "environment.json").write_text(json.dumps({"python": "3.11", "jax": "0.9"}))
+    return root
+
+
+@pytest.fixture
+def unrendered(monkeypatch):
+    """A machine without GL."""
+
+    def refuse(poses, **_):
+        raise RenderingError("pictures cannot be rendered on this machine: no GL")
+
+    monkeypatch.setattr("motionese.analysis.film.pictures", refuse)

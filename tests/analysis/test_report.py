@@ -1,0 +1,200 @@
+"""The whole report on invented runs: complete, self-contained, the same every time."""
+
+import re
+import shutil
+from html.parser import HTMLParser
+
+import pandas as pd
+import pytest
+
+from motionese.analysis import write_report
+from motionese.errors import RenderingError, RunFolderError
+from motionese.experiment.conditions import condition
+
+TD_MD, TND_MD = condition("TD/MD"), condition("TND/MD")
+TABLES = ["loops", "development", "triples", "slow_state_map", "map_numbers", "claims", "runs"]
+VOID = {"meta", "link", "br", "img", "hr"}
+
+
+class Page(HTMLParser):
+    """Collects text and everything that would be fetched; fails on tags that do not match."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.resources, self.ids, self.words = [], [], [], []
+        self.feed(text)
+        assert not self.open
+
+    def handle_starttag(self, tag, attributes):
+        for name, value in attributes:
+            if name in ("src", "href", "xlink:href", "data", "srcset", "action"):
+                self.resources.append(value)
+            if name == "id":
+                self.ids.append(value)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+    @property
+    def text(self):
+        return re.sub(r"\s+", " ", " ".join(self.words))
+
+
+@pytest.fixture(scope="module")
+def no_gl():
+    with pytest.MonkeyPatch.context() as patch:
+
+        def refuse(poses, **_):
+            raise RenderingError("no GL here")
+
+        patch.setattr("motionese.analysis.film.pictures", refuse)
+        yield
+
+
+@pytest.fixture(scope="module")
+def whole(eight_seeds, tmp_path_factory, no_gl):
+    folder = tmp_path_factory.mktemp("whole") / "mine"
+    shutil.copytree(eight_seeds, folder)
+    told = []
+    report = write_report(folder, told.append)
+    return folder, report, told, Page(report.path.read_text())
+
+
+def test_report_and_tables_are_there(whole):
+    folder, report, told, _ = whole
+    assert report.path == folder / "report.html"
+    assert report.runs == 32 and report.too_few == ""
+    assert told[0] == "32 of 32 runs have ended"
+    for name in TABLES:
+        assert len(pd.read_csv(folder / f"{name}.csv"))
+    figures = {path.stem for path in (folder / "figures").glob("*.svg")}
+    assert figures == {path.stem for path in (folder / "figures").glob("*.png")}
+    assert figures >= {"learning_curves", "new_motions", "slow_state_map_1", "inside", "film"}
+    assert not list(folder.rglob("*.part"))
+
+
+def test_the_page_fetches_nothing(whole):
+    text, page = whole[1].path.read_text(), whole[3]
+    assert page.resources
+    for resource in page.resources:
+        assert resource.startswith(("#", "data:"))
+    assert not re.findall(r"url\((?!#)", text)
+    assert "@import" not in text and "<script" not in text
+    outside = set(re.findall(r"https?://[^\"'\s<)]+", text))
+    assert outside <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"}
+
+
+def test_names_on_the_page_are_unique_and_links_lead_somewhere(whole):
+    page = whole[3]
+    assert len(set(page.ids)) == len(page.ids)
+    for resource in page.resources:
+        if resource.startswith("#"):
+            assert resource[1:] in page.ids
+
+
+def test_the_page_tells_what_was_computed(whole):
+    text = whole[3].text
+    assert "When do clear primitives emerge" in text
+    assert "yes in TD/MD (1.00); no in TD/MND" in text
+    assert "best of all: holds" in text
+    assert "network.gain 3.25" in text
+    assert "<mine>" in text, "what users wrote is shown, not taken for tags"
+    assert "All runs finished" in text
+    assert "Drawn from the side" in text and "no GL here" in text
+    assert "Efference copy." in text
+    assert "0, 1, 2, 3, 4, 5, 6, 7" in text
+
+
+def test_claims_table_beside_the_page(whole):
+    claims = pd.read_csv(whole[0] / "claims.csv")
+    assert set(claims["verdict"]) <= {"holds", "does not hold", "undecided with 8 seeds"}
+    assert (claims.loc[claims["claim"].str.startswith("(a)"), "verdict"] == "holds").all()
+
+
+def test_the_same_runs_give_the_same_bytes(whole, eight_seeds, tmp_path):
+    folder = tmp_path / "mine"
+    shutil.copytree(eight_seeds, folder)
+    write_report(folder)
+    first = {p.relative_to(whole[0]): p.read_bytes() for p in whole[0].rglob("*") if p.is_file()}
+    second = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    assert first.keys() == second.keys()
+    assert [p for p in first if first[p] != second[p]] == []
+
+
+def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
+    for seed in range(2):
+        make_run(tmp_path, TD_MD, seed)
+        make_run(tmp_path, TND_MD, seed, end="diverged" if seed else "finished")
+    make_run(tmp_path, TD_MD, 5, end="unfinished")
+    report = write_report(tmp_path)
+    page = Page(report.path.read_text())
+    assert report.runs == 4 and report.too_few == ""
+    assert "2 of the runs did not finish" in page.text
+    assert "loop 2: diverged at epoch 3" in page.text and "stopped after loop 2" in page.text
+    assert "these are the default’s" in page.text
+    assert "undecided with 0 seeds" in page.text and "TND/MND (1" not in page.text
+
+
+def test_one_seed(tmp_path, make_run, unrendered):
+    make_run(tmp_path, TD_MD, 7)
+    make_run(tmp_path, TND_MD, 7)
+    report = write_report(tmp_path)
+    assert report.too_few == (
+        "a test over seeds needs at least 2 of them; with an ended run in TD/MD and TND/MD: got 1"
+    )
+    page = Page(report.path.read_text())
+    assert report.too_few in page.text
+    assert "undecided with 1 seed" in page.text
+    claims = pd.read_csv(tmp_path / "claims.csv")
+    assert set(claims["verdict"]) == {"undecided with 0 seeds", "undecided with 1 seed"}
+    assert claims["p"].isna().all()
+
+
+def test_nothing_but_a_diverged_run(tmp_path, make_run):
+    make_run(tmp_path, TD_MD, 0, end="diverged")
+    report = write_report(tmp_path)
+    page = Page(report.path.read_text())
+    assert report.runs == 1 and report.too_few
+    assert "No run was evaluated on new motions" in page.text
+    assert "No run that ended has a slow level" in page.text
+    assert "Nothing was kept of a performance" in page.text
+
+
+def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
+    folder = make_run(tmp_path, TD_MD, 0)
+    (folder / "slow_state_map.csv").write_text("\n")
+    page = Page(write_report(tmp_path).path.read_text())
+    assert "no slow level, no map" in page.text
+
+
+def test_a_report_is_written_anew(tmp_path, make_run, unrendered):
+    make_run(tmp_path, TD_MD, 0)
+    write_report(tmp_path)
+    make_run(tmp_path, TD_MD, 1)
+    assert write_report(tmp_path).runs == 2
+
+
+def test_a_folder_that_cannot_be_written_to(tmp_path, make_run, monkeypatch):
+    make_run(tmp_path, TD_MD, 0)
+
+    def refuse(path, content):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("motionese.analysis.report.write_whole", refuse)
+    with pytest.raises(RunFolderError, match=r"loops\.csv cannot be written: Permission denied"):
+        write_report(tmp_path)
+
+
+def test_no_run(tmp_path):
+    with pytest.raises(RunFolderError, match="no ended run"):
+        write_report(tmp_path)

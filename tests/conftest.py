@@ -1,0 +1,40 @@
+"""What all tests share: one thread, checked array shapes, double precision, fixed examples."""
+
+import os
+
+from hypothesis import HealthCheck, settings
+from jaxtyping import install_import_hook
+
+# Read by XLA when jax is imported, which must come after this line.
+os.environ.setdefault(
+    "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+)
+install_import_hook("motionese", "typechecking.checked")
+
+import jax  # noqa: E402
+import jaxtyping  # noqa: E402
+import pytest  # noqa: E402
+
+settings.register_profile(
+    "motionese",
+    derandomize=True,
+    deadline=None,
+    max_examples=15,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
+)
+settings.load_profile("motionese")
+
+
+@pytest.fixture
+def float64():
+    """Let jax compute in double precision, as the twins by hand do."""
+    with jax.enable_x64(True):
+        yield
+
+
+@pytest.fixture
+def unchecked():
+    """Run without the checks of annotations, as users do, to meet the package's own refusals."""
+    jaxtyping.config.update("jaxtyping_disable", True)
+    yield
+    jaxtyping.config.update("jaxtyping_disable", False)

@@ -1,0 +1,106 @@
+"""Many runs in processes of their own: all results right, whatever happens to a process."""
+
+import os
+import signal
+from types import SimpleNamespace
+
+import psutil
+import pytest
+from distributed.scheduler import KilledWorker
+from small_runs import left_on_disk
+
+from motionese.experiment.conditions import CONDITIONS, condition
+from motionese.experiment.many_runs import _failure, go_through_all, longest_first
+from motionese.experiment.run import Run
+
+
+class Heard:
+    """What the main process is told of the runs, in the order it was told."""
+
+    def __init__(self, on_loop=lambda loop: None):
+        self.loops, self.ended, self.on_loop = [], [], on_loop
+
+    def loop_done(self, run, loop):
+        self.loops.append((run.name, loop))
+        self.on_loop(loop)
+
+    def run_ended(self, run, failure):
+        self.ended.append((run.name, failure))
+
+    def go_through_all(self, runs, settings, workers):
+        return go_through_all(
+            runs, settings, workers, loop_done=self.loop_done, run_ended=self.run_ended
+        )
+
+
+def workers_of_this_process():
+    children = psutil.Process().children(recursive=True)
+    return [child for child in children if "spawn_main" in " ".join(child.cmdline())]
+
+
+def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
+    tmp_path, small_settings, undisturbed
+):
+    good = Run(condition("TD/MD"), 5, tmp_path / "good")
+    bad = Run(condition("TD/MD"), 6, tmp_path / "bad")
+    bad.folder.mkdir()
+    (bad.folder / "loop-01.safetensors").write_bytes(b"cut short")
+    heard = Heard()
+    failures = heard.go_through_all([bad, good], small_settings, 2)
+    (failure,) = failures
+    assert failure.startswith(f"TD/MD seed 6: {bad.folder / 'loop-01.safetensors'}: ")
+    assert "cut short; remove it and the checkpoints of later loops, and" in failure
+    assert left_on_disk(good.folder) == undisturbed
+    told = [loop for name, loop in heard.loops if name == good.name]
+    assert told == [0, 1, 2, 3]
+    assert sorted(heard.ended) == [(good.name, ""), (bad.name, failure.split(": ", 1)[1])]
+    assert not workers_of_this_process()
+
+
+def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, small_settings, undisturbed):
+    killed = []
+
+    def kill_in_loop_2(loop):
+        if loop == 1 and not killed:
+            killed.extend(workers_of_this_process())
+            for worker in killed:
+                os.kill(worker.pid, signal.SIGKILL)
+
+    heard = Heard(kill_in_loop_2)
+    run = Run(condition("TD/MD"), 5, tmp_path)
+    assert heard.go_through_all([run], small_settings, 1) == []
+    assert len(killed) == 1
+    assert [loop for _, loop in heard.loops].count(0) == 1
+    assert left_on_disk(tmp_path) == undisturbed
+
+
+def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_settings):
+    runs = [Run(c, seed, tmp_path / c.folder / str(seed)) for c in CONDITIONS for seed in (0, 1, 2)]
+    begun, ended = runs[0], runs[-1]
+    for run in (begun, ended):
+        run.folder.mkdir(parents=True)
+    (begun.folder / "loop-01.safetensors").touch()
+    (ended.folder / "ended.json").write_text('{"status": "finished"}')
+    ordered = longest_first(runs, small_settings)
+    assert len(ordered) == 11
+    assert ended not in ordered
+    assert ordered[-1] == begun
+    assert [run.seed for run in ordered[:3]] == [0, 0, 0]
+    assert [run.condition.teaching for run in ordered[:3]] == ["TND", "TND", "TD"]
+
+
+def raising(error):
+    def result():
+        raise error
+
+    return SimpleNamespace(result=result)
+
+
+def test_a_run_whose_process_dies_again_and_again_is_given_up():
+    error = KilledWorker("run", SimpleNamespace(address="somewhere"), 3)
+    assert "killed again and again" in _failure(raising(error))
+
+
+def test_a_defect_is_not_hidden():
+    with pytest.raises(ZeroDivisionError):
+        _failure(raising(ZeroDivisionError()))

@@ -1,0 +1,55 @@
+"""The command line as a user meets it, in this process or in one of its own."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from small_runs import compiled, small_settings, undisturbed
+
+from motionese.interfaces.command_line import main
+
+__all__ = ["compiled", "small_settings", "undisturbed"]
+COMMAND = [sys.executable, "-c", "from motionese.interfaces.command_line import main; main()"]
+
+
+@pytest.fixture
+def begin(tmp_path, compiled):
+    """Begin a command in an empty folder and a group of its own; returns the process."""
+    environment = {**os.environ, "COLUMNS": "200"}
+
+    def begun(*arguments: str) -> "subprocess.Popen[str]":
+        return subprocess.Popen(
+            [*COMMAND, *arguments],
+            cwd=tmp_path,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    return begun
+
+
+@pytest.fixture
+def command(tmp_path, monkeypatch, capfd):
+    """Run a command in this process, in an empty folder; returns status, output and errors."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(sys, "argv", ["motionese", *arguments])
+        with pytest.raises(SystemExit) as left:
+            main()
+        output, errors = capfd.readouterr()
+        return left.value.code, output, errors
+
+    return run
+
+
+@pytest.fixture
+def here(tmp_path) -> Path:
+    """The folder that commands run in."""
+    return tmp_path

@@ -1,0 +1,117 @@
+"""Small run folders made of invented tables, without any network or robot."""
+
+import json
+
+import numpy as np
+import pandas as pd
+
+from motionese.caregiver import PUSHING_BUTTONS
+from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment.evaluation import NEW_MOTIONS
+
+LOOPS, CHANGE = 8, 4
+ERRORS = {"TD/MD": 1.0, "TD/MND": 2.0, "TND/MD": 6.0, "TND/MND": 1.5}
+"""Error [cm] at the end of a phase and on triples: the paper's claims (a) and (b)."""
+TURN = {"TD/MD": 0.1, "TD/MND": 4.0, "TND/MD": 4.0, "TND/MND": 4.0}
+"""How far directions turn over the map [rad]: the paper's claim (c)."""
+
+
+def loops_table(condition, seed, rng, error, loops=LOOPS):
+    rows = []
+    for loop in range(1, loops + 1):
+        phase = 1 if loop <= CHANGE else 2
+        for motion in PUSHING_BUTTONS.sequences(phase):
+            base = error + 15 * np.exp(-loop) + 0.1 * rng.random()
+            rows.append({
+                "condition": condition, "seed": seed, "loop": loop, "phase": phase,
+                "motion": motion.name, "imitation_error_cm": base,
+                "recognition_residual_cm": 0.3 * base, "model_error_cm": 0.5 * base,
+                "buttons_due": 1, "buttons_pressed": int(loop > 2), "press_depth_mm": 2.0 * loop,
+                "reproduction_error_cm": 0.2 * base, "status": "recognised", "seconds": 0.1,
+            })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def triples_table(condition, seed, rng, error):
+    rows = []
+    for i, motion in enumerate(NEW_MOTIONS):
+        trained = PUSHING_BUTTONS.is_taught(motion)
+        base = error * (1 if trained else 1.5) + error * 0.1 * i + 0.05 * rng.random()
+        rows.append({
+            "condition": condition, "seed": seed, "motion": motion.name, "trained": trained,
+            "imitation_error_cm": base, "recognition_residual_cm": base / 2,
+            "model_error_cm": base / 2, "buttons_due": 1, "buttons_pressed": 1,
+            "press_depth_mm": 9.0, "status": "recognised",
+        })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def map_table(condition, seed, rng, turn, points=4):
+    """Directions of the primitives, turned by `turn` from one side of the map to the other."""
+    rows = []
+    side = np.linspace(-5, 5, points)
+    true = {"↓": -1.5, "↑": 1.5, "←": 3.1}
+    for motion in PUSHING_BUTTONS.sequences(1):
+        for x in side:
+            for y in side:
+                angle = true[motion.name[-1]] + turn * x / 10 + 0.01 * rng.standard_normal()
+                rows.append({
+                    "condition": condition, "seed": seed, "primitive": motion.name,
+                    "cs_1": x, "cs_2": y, "direction_1_rad": angle, "extent_1_rad": 0.3,
+                    "direction_2_rad": angle + y * turn / 10, "extent_2_rad": 0.2,
+                })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def development_table(condition, seed, opens):
+    rows = []
+    for loop in range(1, LOOPS + 1):
+        rms = 2.0 + 0.1 * loop if loop >= opens else np.nan
+        rows.append({
+            "condition": condition, "seed": seed, "loop": loop, "levels": 3, "loss": 1.0,
+            "rms_cs_to_cf": rms, "rms_cs_to_cf_at_opening": 2.0 if loop >= opens else np.nan,
+        })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def inside_arrays(rng, steps=42):
+    t = np.linspace(0, 1, steps)
+    arrays = {}
+    for motion in NEW_MOTIONS:
+        path = np.stack([0.5 + 0 * t, -0.3 + 0.2 * t, 1.05 - 0.2 * np.sin(3 * t) ** 2], axis=1)
+        arrays[f"shown.{motion.name}"] = path
+        arrays[f"performed.{motion.name}"] = path + 0.01 * rng.standard_normal((steps, 3))
+    depths = np.stack([np.where(abs(t - 0.3) < 0.05, 9.0, 0.0), 0 * t], axis=1)
+    return arrays | {
+        "activity": rng.random((steps, 48)).astype(np.float32),
+        "commanded": np.zeros((steps, 2)),
+        "sensed": np.stack([0.1 + 0.4 * np.sin(3 * t), -0.2 + 0 * t], axis=1),
+        "depths": depths,
+        "poses": np.tile([0, 0.4, 0.1, -0.2, 0, 0, 1.3, 1.1, 0.95], (steps, 1)),
+    }
+
+
+def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
+    """Write a run's folder; `end` is how it ended, "unfinished" or "diverged" included."""
+    folder = root / condition.folder / f"seed-{seed}"
+    folder.mkdir(parents=True)
+    rng = np.random.default_rng([seed, CONDITIONS.index(condition)])
+    name = condition.name
+    loops = 2 if end != "finished" else LOOPS
+    for loop in range(1, loops + 1):
+        (folder / f"loop-{loop:02d}.safetensors").touch()
+    if end == "unfinished":
+        return folder
+    error = ERRORS[name] if error is None else error
+    loops_table(name, seed, rng, error, loops).to_csv(folder / "loops.csv", index=False)
+    opens = 1 if condition.structuring == "MND" else CHANGE + 1
+    development_table(name, seed, opens).to_csv(folder / "development.csv", index=False)
+    reason = "" if end == "finished" else "loop 2: diverged at epoch 3"
+    ended = {"status": end, "reason": reason, "seconds": 12.5}
+    (folder / "ended.json").write_text(json.dumps(ended))
+    if end == "finished":
+        triples_table(name, seed, rng, error).to_csv(folder / "triples.csv", index=False)
+        points = map_table(name, seed, rng, TURN[name] if turn is None else turn)
+        points.to_csv(folder / "slow_state_map.csv", index=False)
+        np.savez_compressed(folder / "inside.npz", **inside_arrays(rng))
+    return folder

@@ -1,0 +1,127 @@
+"""Training and recognition by plain descent are what equations (3)–(5) say, worked out by hand."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from by_hand import learning as by_hand
+from by_hand.network import rollout, sigmoid
+
+from motionese import (
+    MTRNN,
+    Channel,
+    Channels,
+    Level,
+    Motions,
+    Recognition,
+    Training,
+    generate,
+    train,
+)
+from motionese.learning import activity, recognise_all
+
+SIZES = {2: (2, 5), 3: (2, 4, 2), 4: (2, 3, 2, 1)}
+CHANNELS = Channels([Channel("x", "cm", -2.0, 2.0), Channel("y", "cm", 0.0, 5.0)])
+LENGTHS = (6, 4, 7)
+
+
+def drawn(levels, **settings):
+    """A network with a bias, and the same as arrays by name."""
+    sizes = SIZES[levels]
+    net = MTRNN(
+        [Level(size, tau) for size, tau in zip(sizes, (2.0, 5.0, 30.0, 70.0), strict=False)],
+        key=jax.random.key(levels),
+        channels=CHANNELS,
+        **settings,
+    )
+    net = net.with_parameters(net.weights, jnp.linspace(-0.5, 0.5, net.size))
+    arrays = {name: np.asarray(getattr(net, name)) for name in ("weights", "bias", "tau")}
+    return net, {**arrays, "sizes": sizes, **settings}
+
+
+def ragged(seed=0):
+    """Motions with gaps, as Motions and in the unit interval for the twin."""
+    rng = np.random.default_rng(seed)
+    values = [rng.uniform((-2.0, 0.0), (2.0, 5.0), (length, 2)) for length in LENGTHS]
+    masks = [rng.uniform(size=value.shape) < 0.7 for value in values]
+    masks[0][0] = (True, False)
+    motions = Motions.from_arrays(values, CHANNELS, 10.0, observed=masks)
+    scaled = [0.1 + 0.8 * (value - (-2.0, 0.0)) / (4.0, 5.0) for value in values]
+    return motions, list(zip(scaled, masks, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("levels", "learned_bias", "initial_io", "clip"),
+    [(3, True, "sensed", 0.0), (2, False, "sensed", 0.3), (4, True, "zero", 0.3)],
+)
+def test_training_equals_plain_descent_by_hand(float64, levels, learned_bias, initial_io, clip):
+    net, arrays = drawn(levels, learned_bias=learned_bias, initial_io=initial_io)
+    motions, twins = ragged()
+    begin = np.random.default_rng(1).normal(size=(3, net.size))
+    settings = Training(
+        epochs=4,
+        optimiser="descent",
+        weight_rate=0.2,
+        initial_rate=0.8,
+        clip=clip,
+        bound=0.3,
+        teacher_forcing=0.3,
+    )
+
+    fit = train(net, motions, settings=settings, initial_states=begin, padded_to=(4, 9))
+
+    expected, free, errors = by_hand.descent(
+        arrays,
+        twins,
+        begin,
+        epochs=4,
+        weight_rate=0.2,
+        initial_rate=0.8,
+        teacher_forcing=0.3,
+        bound=np.where(np.arange(net.size) < 2, np.inf, 0.3),
+        clip=clip,
+    )
+    starts = [by_hand.start(f, *motion, initial_io) for f, motion in zip(free, twins, strict=True)]
+    assert (np.abs(free[:, 2:]) == 0.3).any(), "the bound should be met"
+    np.testing.assert_allclose(fit.losses, errors, rtol=1e-10)
+    np.testing.assert_allclose(fit.network.weights, expected["weights"], rtol=0, atol=1e-10)
+    np.testing.assert_allclose(fit.network.bias, expected["bias"], rtol=0, atol=1e-10)
+    np.testing.assert_allclose(fit.initial_states, starts, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize(("initial_io", "penalty"), [("sensed", 0.0), ("zero", 0.01)])
+def test_recognition_equals_plain_descent_by_hand(float64, initial_io, penalty):
+    net, arrays = drawn(3, learned_bias=True, initial_io=initial_io)
+    motions, twins = ragged()
+    starts = np.random.default_rng(2).normal(size=(3, 1, net.size))
+    settings = Recognition(
+        iterations=10, starts=0, optimiser="descent", rate=2.0, bound={"cf": 1.2}, penalty=penalty
+    )
+
+    found = recognise_all(net, motions, starts=starts, settings=settings)
+
+    bound = np.where((np.arange(net.size) >= 2) & (np.arange(net.size) < 6), 1.2, np.inf)
+    for each, motion, begin in zip(found, twins, starts[:, 0], strict=True):
+        state, loss = by_hand.recognition(
+            arrays, motion, begin, iterations=10, rate=2.0, bound=bound, penalty=penalty
+        )
+        np.testing.assert_allclose(each.initial_state, state, rtol=0, atol=1e-10)
+        assert each.loss == pytest.approx(loss, rel=1e-10)
+
+
+@pytest.mark.parametrize("first", [None, np.array([1.5, 4.0])])
+def test_generation_equals_a_closed_loop_by_hand(float64, first):
+    net, arrays = drawn(3)
+    state = np.random.default_rng(3).normal(size=net.size)
+    sensed, share = np.full((9, 2), 0.5), np.zeros((9, 2))
+    if first is not None:
+        sensed[0], share[0] = (0.1 + 0.8 * 3.5 / 4.0, 0.1 + 0.8 * 4.0 / 5.0), 1.0
+    parts = (arrays["weights"], arrays["bias"], arrays["tau"], arrays["sizes"])
+    path = rollout(*parts, state, sensed, share)
+    y = np.vectorize(sigmoid)(path)
+    if first is not None:
+        y[0, :2] = sensed[0]
+
+    np.testing.assert_allclose(activity(net, state, 9, first=first), y, rtol=0, atol=1e-12)
+    expected = (y[:, :2] - 0.1) / 0.8 * (4.0, 5.0) + (-2.0, 0.0)
+    np.testing.assert_allclose(generate(net, state, 9, first=first), expected, rtol=0, atol=1e-12)

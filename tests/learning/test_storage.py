@@ -1,0 +1,66 @@
+"""A fit on disk: the same bits come back, and generate the same motions."""
+
+import equinox as eqx
+import numpy as np
+import pytest
+
+from motionese import generate, load, save
+from motionese.errors import StorageError
+from motionese.network import read_network, write_network
+
+PARTS = ("initial_states", "losses", "validation_losses", "closed_loop_error")
+
+
+@pytest.fixture
+def path(tmp_path, fit):
+    save(tmp_path / "robot.safetensors", fit)
+    return tmp_path / "robot.safetensors"
+
+
+def test_the_same_bits_come_back(path, fit):
+    loaded = load(str(path))
+
+    assert bool(eqx.tree_equal(loaded.network, fit.network))
+    assert loaded.names == fit.names
+    assert loaded.status == fit.status
+    for part in PARTS:
+        np.testing.assert_array_equal(getattr(loaded, part), getattr(fit, part))
+        assert getattr(loaded, part).dtype == getattr(fit, part).dtype
+    before, after = (generate(f.network, f.initial_states, 20) for f in (fit, loaded))
+    np.testing.assert_array_equal(after, before)
+
+
+def test_saving_again_writes_the_same_bytes(path, tmp_path):
+    save(tmp_path / "again", load(path))
+
+    assert (tmp_path / "again").read_bytes() == path.read_bytes()
+
+
+def test_a_fit_cut_short_is_refused(path):
+    whole = path.read_bytes()
+    for share in (0.1, 0.5, 0.99):
+        path.write_bytes(whole[: int(share * len(whole))])
+        with pytest.raises(StorageError, match="perhaps cut short"):
+            load(path)
+
+
+@pytest.mark.parametrize("part", [*PARTS, "names", "status", "sentence"])
+def test_a_network_without_a_whole_fit_is_refused(path, part):
+    network, arrays, facts = read_network(path)
+    arrays.pop(part, None)
+    facts.pop(part, None)
+    write_network(path, network, arrays, facts)
+
+    with pytest.raises(StorageError, match=f"a network without a fit; {part} missing"):
+        load(path)
+
+
+def test_states_and_status_of_no_fit_are_refused(path):
+    network, arrays, facts = read_network(path)
+    write_network(path, network, arrays | {"initial_states": np.zeros((3, 16))}, facts)
+    with pytest.raises(StorageError, match=r"must have shape \(3, 17\), got \(3, 16\)"):
+        load(path)
+
+    write_network(path, network, arrays, facts | {"status": "stoped"})
+    with pytest.raises(StorageError, match=r"unknown status 'stoped'; did you mean 'stopped'\?"):
+        load(path)
