@@ -35,7 +35,7 @@ def test_links_lead_somewhere(page):
 def test_commands_and_their_options_exist(page):
     from motionese.interfaces.command_line import app
 
-    for line in re.findall(r"^ *(?:\.venv/bin/)?motionese (.*)$", page.read_text(), re.MULTILINE):
+    for line in re.findall(r"^ {4}(?:\.venv/bin/)?motionese (.*)$", page.read_text(), re.MULTILINE):
         command, *arguments = shlex.split(line, comments=True)
         told = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "200"})
         assert told.exit_code == 0, line

@@ -65,5 +65,5 @@ def test_warnings_tell_an_idle_level_from_one_as_it_was_drawn():
     said = warnings(pd.concat([idle, drawn, moved]))
     assert len(said) == 2
     assert "does nothing in TD/MD (2.00 → 2.10; 0.0% and 0.0%)" in said[0]
-    assert "as it was drawn in TD/MND (" in said[1]
+    assert "as it was drawn at random in TD/MND (" in said[1]
     assert "TND/MND" not in "".join(said)

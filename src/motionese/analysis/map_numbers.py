@@ -127,8 +127,8 @@ def warnings(numbers: pd.DataFrame) -> list[str]:
         )
     if as_drawn:
         sentences.append(
-            f"The map shows the slow level as it was drawn in {listed(as_drawn)}: its weights to "
-            "Cf hardly moved in learning."
+            f"The map shows the slow level as it was drawn at random in {listed(as_drawn)}: its "
+            "weights to Cf hardly moved in learning."
         )
     if sentences:
         sentences[-1] += (
