@@ -60,7 +60,8 @@ class Channels(Sequence[Channel]):
     @property
     def interval_widths(self) -> Float[ndarray, " D"]:
         """How much of each channel's unit the whole unit interval stands for."""
-        return self._span / (INNER_HIGH - INNER_LOW)
+        widths: Float[ndarray, " D"] = self._span / (INNER_HIGH - INNER_LOW)
+        return widths
 
     def indices(self, names: Iterable[str]) -> Int[ndarray, " K"]:
         """Return the columns of the named channels; `ChannelError` for a name that is not here."""

@@ -130,7 +130,9 @@ def test_feedback_and_exploration_change_what_is_performed():
         scene_of(*over) for over in ([], ["imitation.feedback=0.5"], ["imitation.exploration=0.05"])
     )
     network = learner_of(plain).network
-    paths = [s.perform(network, np.zeros(14), PAIRS[0], 28, "t").path for s in (plain, fed, explored)]
+    paths = [
+        s.perform(network, np.zeros(14), PAIRS[0], 28, "t").path for s in (plain, fed, explored)
+    ]
     assert not np.allclose(paths[0], paths[1]) and not np.allclose(paths[0], paths[2])
 
 

@@ -46,7 +46,7 @@ def test_the_paper_preset_is_the_paper_where_it_speaks():
 def test_presets_are_valid_and_hold_what_their_files_say(preset, quick):
     settings = read_settings(preset, quick=quick).model_dump(mode="json")
     text = tomllib.loads(preset_text("quick" if quick else preset))
-    told = {path: value for path, value in flat(text)}
+    told = dict(flat(text))
     held = dict(flat(settings))
     assert {path: held[path] for path in told} == told
 

@@ -35,7 +35,7 @@ def test_elsewhere_a_line_for_every_run_that_ends(runs):
         display.run_ended(runs[0], "")
         display.run_ended(runs[1], "its checkpoint is cut short")
     first, second = out.file.getvalue().splitlines()
-    assert first.startswith("TD/MD seed 0 ended; 1 runs to go, 9 of 12 loops")
+    assert first.startswith("TD/MD seed 0 ended; 1 run to go, 9 of 12 loops")
     assert second.startswith("TD/MD seed 1 cannot go on; 0 runs to go, 12 of 12 loops")
 
 
@@ -70,6 +70,19 @@ def test_on_a_terminal_one_bar_for_all_and_one_for_each_under_way(runs):
     assert "9/12" in shown.replace(" ", "")
 
 
-@pytest.mark.parametrize(("seconds", "words"), [(7.4, "7 s"), (99, "99 s"), (150, "2 min")])
-def test_time_left_in_words(seconds, words):
-    assert module._minutes(seconds) == words
+@pytest.mark.parametrize(
+    ("loops", "seconds_a_loop", "told"),
+    [(1, 9, ""), (2, 1, "about 18 s left"), (4, 60, "about 16 min left")],
+)
+def test_time_left_is_told_once_a_tenth_is_done(runs, monkeypatch, loops, seconds_a_loop, told):
+    monkeypatch.setattr(module, "LINE_EVERY_S", -1.0)
+    now = [0.0]
+    out = console(terminal=False)
+    display = Display(out, runs[:1], loops=20)
+    display._progress.get_time = lambda: now[0]
+    display._progress.reset(display._all)
+    for loop in range(loops + 1):
+        display.loop_done(runs[0], loop)
+        now[0] += seconds_a_loop
+    line = out.file.getvalue().splitlines()[-1]
+    assert line == ", ".join(filter(None, [f"going on; 1 run to go, {loops} of 20 loops", told]))

@@ -5,6 +5,7 @@ shown can be imitated exactly, as when a caregiver adapts to a child's arm.
 """
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -73,14 +74,15 @@ class ScriptedCaregiver:
     def demonstrate(self, motion: Motion, rng: np.random.Generator) -> Float[ndarray, "T 3"]:
         """Return the hand's path, new in its details with every generator."""
         path = self.intended(motion)
-        return path + self._deviation(len(path), rng)
+        shown: Float[ndarray, "T 3"] = path + self._deviation(len(path), rng)
+        return shown
 
     def intended(self, motion: Motion) -> Float[ndarray, "T 3"]:
         """Return the path without variability."""
         corners = np.array([self.manner.corner(name) for name in motion.corners])
         stroke, rest = self.manner.stroke_steps, self.manner.rest_steps
         share = minimum_jerk(np.minimum(np.arange(1, stroke + rest + 1) / stroke, 1.0))
-        strokes = [a + share[:, None] * (b - a) for a, b in zip(corners, corners[1:], strict=False)]
+        strokes = [a + share[:, None] * (b - a) for a, b in pairwise(corners)]
         # Row 0 is the start corner itself, so the last rest is one row shorter.
         return projected(np.concatenate([corners[:1], *strokes])[:-1])
 

@@ -112,7 +112,8 @@ class Task:
             leaving = {p.arrow: p for p in self.primitives if p.start == corner}
             if arrow not in leaving:
                 raise TaskError(
-                    f"impossible sequence '{text}': from {corner} only {', '.join(leaving)} leads on"
+                    f"impossible sequence '{text}': "
+                    f"from {corner} only {', '.join(leaving)} leads on"
                 )
             yield leaving[arrow]
             corner = leaving[arrow].end

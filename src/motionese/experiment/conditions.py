@@ -32,9 +32,11 @@ class Condition:
         return f"{self.teaching}-{self.structuring}"
 
 
-CONDITIONS = tuple(
-    Condition(teaching, structuring)
-    for teaching, structuring in (("TD", "MD"), ("TD", "MND"), ("TND", "MD"), ("TND", "MND"))
+CONDITIONS = (
+    Condition("TD", "MD"),
+    Condition("TD", "MND"),
+    Condition("TND", "MD"),
+    Condition("TND", "MND"),
 )
 
 

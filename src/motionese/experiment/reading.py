@@ -149,8 +149,10 @@ def _laid_over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Table:
     result = dict(below)
     for name, value in above.items():
         old = result.get(name)
-        both = isinstance(old, Mapping) and isinstance(value, Mapping)
-        result[name] = _laid_over(old, value) if both else value
+        if isinstance(old, Mapping) and isinstance(value, Mapping):
+            result[name] = _laid_over(old, value)
+        else:
+            result[name] = value
     return result
 
 

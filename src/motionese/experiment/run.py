@@ -157,7 +157,7 @@ def _finish(run: Run, scene: Scene, last: Checkpoint) -> Row:
         write_table(run.folder / "triples.csv", [{**who, **row} for row in new])
         write_table(run.folder / "slow_state_map.csv", [{**who, **row} for row in points])
         kept = io.BytesIO()
-        np.savez_compressed(kept, **inside(last.learner, imitated))
+        np.savez_compressed(kept, allow_pickle=False, **inside(last.learner, imitated))
         write_whole(run.folder / "inside.npz", kept.getvalue())
     ended = {
         "status": "diverged" if last.failure else "finished",

@@ -1,5 +1,6 @@
 """Progress over all runs: bars on a terminal, now and then a line elsewhere."""
 
+import math
 import time
 from collections.abc import Sequence
 from types import TracebackType
@@ -9,16 +10,25 @@ from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    ProgressColumn,
+    Task,
     TaskID,
     TextColumn,
-    TimeRemainingColumn,
 )
+from rich.text import Text
 
 from motionese.experiment.run import Run
 
 LINE_EVERY_S = 20.0
 WHOLE_HISTORY_S = 1e9
 """Loops come in bursts, with compilation between them: only the whole history gives a rate."""
+
+
+class _TimeLeft(ProgressColumn):
+    """How long all runs will take, once compilation no longer distorts it."""
+
+    def render(self, task: Task) -> Text:
+        return Text(_time_left(task))
 
 
 class Display:
@@ -36,13 +46,15 @@ class Display:
             BarColumn(),
             MofNCompleteColumn(),
             TextColumn("loops"),
-            TimeRemainingColumn(),
+            _TimeLeft(),
             console=console,
             transient=True,
             speed_estimate_period=WHOLE_HISTORY_S,
         )
-        done = sum(self._done.values())
-        self._all = self._progress.add_task("all runs", total=loops * len(runs), completed=done)
+        done, total = sum(self._done.values()), loops * len(runs)
+        self._all = self._progress.add_task(
+            "all runs", total=total, completed=done, told_from=100 * (0.9 * done / total + 0.1)
+        )
 
     def __enter__(self) -> "Display":
         if self._console.is_terminal:
@@ -61,7 +73,9 @@ class Display:
     def loop_done(self, run: Run, loop: int) -> None:
         """Show a run's last whole loop; its row appears with the first one that is told."""
         if run.name not in self._rows:
-            self._rows[run.name] = self._progress.add_task(run.name, total=self._loops)
+            self._rows[run.name] = self._progress.add_task(
+                run.name, total=self._loops, told_from=math.inf
+            )
         doing = run.name if loop < self._loops else f"{run.name}, evaluation"
         self._progress.update(self._rows[run.name], completed=loop, description=doing)
         self._advance(run, loop)
@@ -87,11 +101,14 @@ class Display:
             return
         self._said = time.monotonic()
         task = self._progress.tasks[0]
-        left = f", about {_minutes(task.time_remaining)} left" if task.time_remaining else ""
-        self._console.print(
-            f"{news}; {self._left} runs to go, {task.completed:g} of {task.total:g} loops{left}"
-        )
+        runs = f"{self._left} run{'' if self._left == 1 else 's'} to go"
+        parts = [runs, f"{task.completed:g} of {task.total:g} loops", _time_left(task)]
+        self._console.print(f"{news}; {', '.join(filter(None, parts))}")
 
 
-def _minutes(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+def _time_left(task: Task) -> str:
+    """Return how long a task will take in words, or "" before a tenth of it is done."""
+    seconds = task.time_remaining
+    if not seconds or task.finished or task.percentage < task.fields["told_from"]:
+        return ""
+    return f"about {seconds:.0f} s left" if seconds < 100 else f"about {seconds / 60:.0f} min left"
