@@ -76,7 +76,8 @@ class Channels(Sequence[Channel]):
         """Map values [the channels' units], last axis the channels, to the unit interval."""
         self._check_width(values)
         share = (values - self._low) / self._span
-        return np.clip(INNER_LOW + (INNER_HIGH - INNER_LOW) * share, CLIP_LOW, CLIP_HIGH)
+        scaled = INNER_LOW + (INNER_HIGH - INNER_LOW) * share
+        return np.asarray(np.clip(scaled, CLIP_LOW, CLIP_HIGH))
 
     def from_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
         """Map the unit interval, last axis the channels, back to the channels' units."""

@@ -2,10 +2,11 @@
 
 import os
 import signal
-from types import SimpleNamespace
+from unittest.mock import Mock
 
 import psutil
 import pytest
+from distributed import Future
 from distributed.scheduler import KilledWorker
 from small_runs import left_on_disk
 
@@ -90,14 +91,11 @@ def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_
 
 
 def raising(error):
-    def result():
-        raise error
-
-    return SimpleNamespace(result=result)
+    return Mock(spec=Future, result=Mock(side_effect=error))
 
 
 def test_a_run_whose_process_dies_again_and_again_is_given_up():
-    error = KilledWorker("run", SimpleNamespace(address="somewhere"), 3)
+    error = KilledWorker("run", Mock(address="somewhere"), 3)
     assert "killed again and again" in _failure(raising(error))
 
 

@@ -65,3 +65,10 @@ def test_with_a_cut_checkpoint_it_waits_for_its_removal(tmp_path, small_settings
     checkpoint.unlink()
     go_through(run, small_settings, lambda loop: None)
     assert left_on_disk(tmp_path) == undisturbed
+
+
+def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
+    run = Run(condition("TD/MD"), 5, tmp_path)
+    (tmp_path / "ended.json").write_text('{"status": "fin')
+    with pytest.raises(StorageError, match=r"ended\.json: cannot be read; remove it"):
+        go_through(run, small_settings, lambda loop: None)

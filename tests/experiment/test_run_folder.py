@@ -172,6 +172,12 @@ def test_other_versions_are_told_and_kept_on_record(tmp_path, settings, monkeypa
     assert now == {**first, "changed": [f"jax: {first['jax']} → 99.0"]}
 
 
+def test_a_damaged_environment_is_refused(tmp_path, settings):
+    opened(tmp_path, settings)
+    (tmp_path / "environment.json").write_text("{")
+    assert "environment.json cannot be read" in refused(tmp_path, settings)
+
+
 def test_no_folder_and_no_run_folder_are_told_apart(tmp_path):
     with pytest.raises(RunFolderError, match="there is no such folder"):
         run_settings(tmp_path / "missing")

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from motionese.errors import StorageError
 from motionese.experiment.checkpoint import (
     Checkpoint,
     checkpoint_path,
@@ -53,9 +54,18 @@ class Run:
         return len(list(self.folder.glob("loop-*.safetensors")))
 
     def ended(self) -> Row | None:
-        """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not."""
+        """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not.
+
+        Raises:
+            StorageError: The file that tells it cannot be read.
+        """
         path = self.folder / ENDED
-        return dict(json.loads(path.read_text())) if path.is_file() else None
+        try:
+            return dict(json.loads(path.read_text())) if path.is_file() else None
+        except (OSError, ValueError) as error:
+            raise StorageError(
+                f"{path}: cannot be read; remove it, and the run is evaluated again"
+            ) from error
 
 
 def go_through(run: Run, settings: Settings, told: Callable[[int], None]) -> Row:

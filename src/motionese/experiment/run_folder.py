@@ -89,11 +89,8 @@ def run_settings(path: Path) -> Facts:
         raise RunFolderError(f"{path} is no run folder: there is no such folder")
     if not (path / SETTINGS).is_file():
         raise RunFolderError(f"{path} is no run folder: it has no {SETTINGS}")
-    try:
-        facts = json.loads((path / SETTINGS).read_text())
-    except (OSError, ValueError) as error:
-        raise RunFolderError(f"{path / SETTINGS}: cannot be read: {error}") from error
-    if not isinstance(facts, dict) or facts.get("format") != FORMAT:
+    facts = _facts(path / SETTINGS)
+    if facts.get("format") != FORMAT:
         raise RunFolderError(f"{path / SETTINGS} was not written by motionese")
     if facts.get("version") != VERSION:
         raise RunFolderError(
@@ -101,6 +98,14 @@ def run_settings(path: Path) -> Facts:
             f"reads {VERSION}; install a newer one"
         )
     return dict(facts["settings"])
+
+
+def _facts(file: Path) -> Facts:
+    try:
+        facts = json.loads(file.read_text())
+    except (OSError, ValueError) as error:
+        raise RunFolderError(f"{file} cannot be read: {error}") from error
+    return facts if isinstance(facts, dict) else {}
 
 
 def _check_ours(path: Path) -> None:
@@ -157,7 +162,7 @@ def _process(holder: Path) -> str:
 def _record_environment(path: Path) -> tuple[str, ...]:
     """Write what the folder is made with; changes since the beginning are added, never replaced."""
     now, file = environment(), path / ENVIRONMENT
-    facts = json.loads(file.read_text()) if file.is_file() else now
+    facts = _facts(file) if file.is_file() else now
     changed = tuple(differences({name: facts.get(name) for name in now}, now))
     told = list(facts.get("changed", ()))
     added = [change for change in changed if change not in told]
