@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -91,19 +90,6 @@ def test_the_protocol_is_filled(body):
 def test_command_that_is_not_finite_is_refused(body, angle):
     with pytest.raises(MotionError, match="must be finite, got"):
         body.command(np.array([0.1, angle]))
-
-
-def test_a_motion_of_28_steps_is_quick(body, rng):
-    def motion():
-        begin = time.perf_counter()
-        for _ in range(28):
-            body.command(np.array([0.3, 0.1]))
-            body.step()
-            body.sense()
-        return time.perf_counter() - begin
-
-    body.reset(np.array([0.2, 0.0]), rng)
-    assert min(motion() for _ in range(5)) < 0.015
 
 
 def test_settings_are_kept():

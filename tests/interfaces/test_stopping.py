@@ -54,6 +54,17 @@ def test_ctrl_c_stops_it_at_once_and_the_same_command_goes_on(begin, here, undis
     assert left_on_disk(here / RUN) == undisturbed
 
 
+def test_ctrl_c_stops_it_while_it_starts_its_workers(begin):
+    process = begin(*REPRODUCE)
+    while not process.stdout.readline().startswith("3 loops a run"):
+        assert process.poll() is None
+    time.sleep(0.3)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert errors == "\nmotionese: stopped; the same command goes on\n"
+
+
 @pytest.mark.slow
 def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(begin, here, undisturbed):
     moments = random.Random(0)

@@ -226,9 +226,15 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     assert training > weights_gradient
 
 
+def test_without_a_key_the_random_starts_are_those_of_key_0(fit, motions):
+    found, same = (
+        recognise(fit.network, motions[0], settings=Recognition(iterations=10), **key)
+        for key in ({}, {"key": jax.random.key(0)})
+    )
+    assert np.array_equal(found.initial_state, same.initial_state)
+
+
 def test_what_does_not_fit_is_refused(network, fit, motions):
-    with pytest.raises(SettingError, match="random starts of recognition need a key, got none"):
-        recognise(fit.network, motions[0])
     with pytest.raises(SettingError, match="takes one motion, got 3; see recognise_all"):
         recognise(fit.network, motions, key=KEY)
     with pytest.raises(ChannelError, match=r"unknown channel 'X'; did you mean 'x'\?"):

@@ -6,6 +6,7 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from itertools import chain, islice
+from multiprocessing import resource_tracker
 
 import dask
 from distributed import Client, Future, LocalCluster, as_completed, get_worker
@@ -44,24 +45,24 @@ def go_through_all(
     Returns:
         For every run that could not go on, a sentence why.
     """
-    waiting = iter(longest_first(runs, settings))
-    of_key: dict[str, Run] = {}
+    left = longest_first(runs, settings)
+    if not left:
+        return []
+    by_name, waiting = {run.name: run for run in left}, iter(left)
     failures = []
-    with _client(min(workers, len(runs))) as client:
+    with _client(min(workers, len(left))) as client:
 
         def begin() -> list[Future]:
             """Hand the next run to a worker, if one is left."""
-            for run in islice(waiting, 1):
-                future = client.submit(_go_through, run, settings, key=run.name, pure=False)
-                of_key[future.key] = run
-                return [future]
-            return []
+            return [
+                client.submit(_go_through, run, settings, key=run.name, pure=False)
+                for run in islice(waiting, 1)
+            ]
 
-        client.subscribe_topic(LOOPS, lambda event: loop_done(of_key[event[1][0]], event[1][1]))
+        client.subscribe_topic(LOOPS, lambda event: loop_done(by_name[event[1][0]], event[1][1]))
         going = as_completed(list(chain.from_iterable(begin() for _ in range(workers))))
         for future in going:
-            run = of_key[future.key]
-            failure = _failure(future)
+            run, failure = by_name[future.key], _failure(future)
             run_ended(run, failure)
             if failure:
                 failures.append(f"{run.name}: {failure}")
@@ -117,35 +118,45 @@ def _failure(future: Future) -> str:
 
 @contextmanager
 def _client(workers: int) -> Iterator[Client]:
+    # Ctrl-C reaches the whole group of processes, but is for the first one alone: threads and
+    # processes made while it is blocked keep it blocked, workers that are restarted included.
+    # The resource tracker would unblock it if it were started by them.
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     quiet = {"logging.distributed": "critical"}
-    with dask.config.set(quiet), _cluster(workers) as cluster, Client(cluster) as client:
-        try:
-            yield client
-        except BaseException:
-            # A worker that was asked to stop would finish its loop first; a checkpoint suffices.
-            for nanny in cluster.workers.values():
-                nanny.auto_restart = False
-                if nanny.pid:
-                    with suppress(ProcessLookupError):
-                        os.kill(nanny.pid, signal.SIGKILL)
-            raise
+    try:
+        with dask.config.set(quiet), _cluster(workers) as cluster, Client(cluster) as client:
+            try:
+                signal.pthread_sigmask(signal.SIG_SETMASK, before)
+                yield client
+            except BaseException:
+                _kill(cluster)
+                raise
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _cluster(workers: int) -> LocalCluster:
-    # Ctrl-C reaches the whole group of processes, but is for the first one alone: threads and
-    # processes made while it is blocked keep it blocked, workers that are restarted included.
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        return LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            memory_limit=0,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",
-            worker_dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL,
-            env=one_core(),
-        )
-    finally:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    return LocalCluster(
+        n_workers=workers,
+        threads_per_worker=1,
+        processes=True,
+        memory_limit=0,
+        host="127.0.0.1",
+        dashboard_address="127.0.0.1:0",
+        worker_dashboard_address="127.0.0.1:0",
+        silence_logs=logging.CRITICAL,
+        env=one_core(),
+    )
+
+
+def _kill(cluster: LocalCluster) -> None:
+    """Kill the workers: asked to stop they would finish their loops first, and need not."""
+    for logger in ("asyncio", "tornado.application"):
+        # They would tell of every connection that is lost by this.
+        logging.getLogger(logger).setLevel(logging.CRITICAL)
+    for nanny in cluster.workers.values():
+        nanny.auto_restart = False
+        if nanny.pid:
+            with suppress(ProcessLookupError):
+                os.kill(nanny.pid, signal.SIGKILL)

@@ -16,6 +16,7 @@ from typing import Annotated
 import typer
 
 from motionese.errors import MotioneseError, SettingError, unknown
+from motionese.interfaces.interrupt import interruptible
 
 app = typer.Typer(
     help="Teach a simulated robot in phases, and see whether clear primitives emerge inside.",
@@ -152,7 +153,8 @@ def presets(
 def _plainly(stopped: str) -> Iterator[None]:
     """Say in one sentence what the user can put right, or that Ctrl-C has stopped the command."""
     try:
-        yield
+        with interruptible():
+            yield
     except MotioneseError as error:
         typer.echo(f"motionese: {error}", err=True)
         raise typer.Exit(WRONG) from error

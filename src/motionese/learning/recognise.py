@@ -70,7 +70,7 @@ def recognise(
         rows: The stretch of time that is looked at; all if left out. Row 0 stays the time of u_0.
         starts: Initial states to start from beside the random ones.
         settings: Iterations, starts, rate, bounds.
-        key: JAX random key of the random starts; needed where there are any.
+        key: JAX random key of the random starts; `jax.random.key(0)` where left out.
     """
     if not isinstance(motion, Motions):
         if network.channels is None:
@@ -111,18 +111,16 @@ def recognise_all(
         motions: The motions; their masks say what is looked at.
         starts: Initial states to start from, so many for every motion.
         settings: Iterations, starts, rate, bounds.
-        key: JAX random key of the random starts; needed where there are any.
+        key: JAX random key of the random starts; `jax.random.key(0)` where left out.
         padded_to: Motions and rows to pad the batch to, so that different batches share compiled
             code.
 
     Raises:
-        SettingError: Random starts without a key, starts of another shape, or channels or levels
+        SettingError: Starts of another shape, or channels or levels
             that the network does not have.
     """
     settings = settings or Recognition()
     network, motions = carried(network, motions)
-    if key is None and settings.starts:
-        raise SettingError("random starts of recognition need a key, got none")
     if starts is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     if starts is not None and starts.shape[::2] != (len(motions), network.size):
@@ -132,7 +130,7 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    free = _starts(network, count, starts, settings, key)
+    free = _starts(network, count, starts, settings, jax.random.key(0) if key is None else key)
     bound = network.per_unit(settings.bound, jnp.inf)
     rule = recognition_rule(
         settings.optimiser, settings.rate, settings.momentum, settings.iterations
@@ -148,14 +146,14 @@ def _starts(
     count: int,
     given: Float[ndarray, "G H N"] | None,
     settings: Recognition,
-    key: Array | None,
+    key: Array,
 ) -> Float[Array, "S M N"]:
     dtype = network.weights.dtype
     parts = []
     if given is not None:
         idle = count - len(given)
         parts.append(jnp.pad(jnp.asarray(given, dtype), ((0, idle), (0, 0), (0, 0))))
-    if key is not None and settings.starts:
+    if settings.starts:
         # One key a motion, so that a motion's starts do not depend on what is recognised with it.
         keys = jax.vmap(lambda i: jax.random.fold_in(key, i))(jnp.arange(count))
         shape = (settings.starts, network.size)

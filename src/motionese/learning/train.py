@@ -55,15 +55,11 @@ class Fit:
 
 
 class _State(eqx.Module):
-    """What an epoch hands to the next.
-
-    At the first epoch that is not finite `sound` turns false for good, and all else stays.
-    """
+    """What an epoch hands to the next."""
 
     parameters: dict[str, Array]
     memory: optax.OptState
     epoch: Array
-    sound: Array
 
 
 def train(
@@ -120,7 +116,7 @@ def train(
     losses: list[float] = []
     status = Status(Ending.STOPPED, f"all {epochs} epochs done")
     while len(losses) < epochs:
-        state, chunk = _epochs(
+        following, chunk = _epochs(
             state,
             network,
             batch,
@@ -132,11 +128,16 @@ def train(
             min(CHUNK, epochs - len(losses)),
         )
         losses.extend(np.asarray(chunk).tolist())
+        diverged = _diverged(losses, state, following)
+        if diverged:
+            status = diverged
+            break
+        state = following
         if held_out:
             held_out.recognise(_trained(network, state))
         if progress:
             progress(len(losses), losses[-1])
-        ended = _judged(losses, state, settings, held_out)
+        ended = _converged(losses, settings, held_out)
         if ended:
             status = ended
             break
@@ -167,7 +168,7 @@ def _begin(
     if initial_states is not None:
         free = free.at[: len(initial_states)].set(jnp.asarray(initial_states, free.dtype))
     parameters = {"weights": network.weights, "bias": network.bias, "initial": free}
-    return _State(parameters, rule.init(parameters), jnp.asarray(0), jnp.asarray(True))
+    return _State(parameters, rule.init(parameters), jnp.asarray(0))
 
 
 def _trained(network: MTRNN, state: _State) -> MTRNN:
@@ -207,24 +208,27 @@ def _epochs(
         updates, memory = rule.update(gradient, state.memory, state.parameters)
         parameters = optax.apply_updates(state.parameters, updates)
         parameters["initial"] = jnp.clip(parameters["initial"], -bound, bound)
-        sound = state.sound & jnp.isfinite(value) & jnp.isfinite(optax.tree.norm(parameters))
-        following = _State(parameters, memory, state.epoch + 1, sound)
-        kept = jax.tree.map(lambda new, old: jnp.where(sound, new, old), following, state)
-        return eqx.tree_at(lambda s: s.sound, kept, sound), value
+        return _State(parameters, memory, state.epoch + 1), value
 
     return jax.lax.scan(epoch, state, None, length=length)
 
 
-def _judged(
-    losses: list[float], state: _State, settings: Training, held_out: _HeldOut | None
-) -> Status | None:
-    """Return how training has ended, or None while it goes on."""
-    if not state.sound:
-        return Status(
-            Ending.DIVERGED,
-            f"the loss or a weight was no longer finite at epoch {int(state.epoch)}; "
-            "what was learned before is kept",
-        )
+def _diverged(losses: list[float], before: _State, after: _State) -> Status | None:
+    """Return that a loss or a parameter is no longer finite, and where, or None if all are."""
+    wrong = np.flatnonzero(~np.isfinite(losses))
+    sound = all(bool(jnp.isfinite(leaf).all()) for leaf in after.parameters.values())
+    if sound and not len(wrong):
+        return None
+    epoch = int(wrong[0]) if len(wrong) else int(after.epoch)
+    return Status(
+        Ending.DIVERGED,
+        f"the loss or a weight was no longer finite at epoch {epoch}; "
+        f"what was learned in {int(before.epoch)} epochs is kept",
+    )
+
+
+def _converged(losses: list[float], settings: Training, held_out: _HeldOut | None) -> Status | None:
+    """Return that the loss no longer falls, or None while it does or nobody asks."""
     watched, patience = losses, settings.patience
     if held_out:
         watched, patience = held_out.losses, -(-settings.patience // CHUNK)
