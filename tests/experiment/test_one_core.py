@@ -1,10 +1,12 @@
 """The environment of one run's process: one thread, compiled functions kept where they can be."""
 
+import os
+import subprocess
 import sys
 
 import pytest
 
-from motionese.experiment.one_core import cache_folder, one_core
+from motionese.experiment.one_core import cache_folder, one_core, one_core_each
 
 VARIABLES = ("XLA_FLAGS", "JAX_PLATFORMS", "JAX_COMPILATION_CACHE_DIR", "OMP_NUM_THREADS")
 
@@ -31,6 +33,16 @@ def test_what_the_user_has_set_stands(monkeypatch):
     assert variables["JAX_COMPILATION_CACHE_DIR"] == "mine"
     monkeypatch.setenv("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=true")
     assert one_core()["XLA_FLAGS"] == "--xla_cpu_multi_thread_eigen=true"
+
+
+def test_processes_started_meanwhile_have_it_and_this_one_has_it_not():
+    before = dict(os.environ)
+    with one_core_each():
+        command = [sys.executable, "-c", "import os; print(os.environ['XLA_FLAGS'])"]
+        started = subprocess.run(command, capture_output=True, text=True, check=True)
+        os.environ["LEFT_BEHIND"] = "1"
+    assert started.stdout == "--xla_cpu_multi_thread_eigen=false\n"
+    assert dict(os.environ) == before
 
 
 def test_compiled_functions_are_kept_in_the_users_cache(tmp_path):

@@ -11,19 +11,18 @@ from small_runs import compiled, small_settings, undisturbed
 from motionese.interfaces.command_line import main
 
 __all__ = ["compiled", "small_settings", "undisturbed"]
-COMMAND = [sys.executable, "-c", "from motionese.interfaces.command_line import main; main()"]
+COMMAND = str(Path(sys.executable).with_name("motionese"))
 
 
 @pytest.fixture
 def begin(tmp_path, compiled):
     """Begin a command in an empty folder and a group of its own; returns the process."""
-    environment = {**os.environ, "COLUMNS": "200"}
 
     def begun(*arguments: str) -> "subprocess.Popen[str]":
         return subprocess.Popen(
-            [*COMMAND, *arguments],
+            [COMMAND, *arguments],
             cwd=tmp_path,
-            env=environment,
+            env={**os.environ, "COLUMNS": "200"},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

@@ -66,7 +66,10 @@ def test_ctrl_c_stops_it_while_it_starts_its_workers(begin):
 
 
 @pytest.mark.slow
-def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(begin, here, undisturbed):
+def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(
+    begin, here, undisturbed, monkeypatch
+):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(here / "cache"))
     moments = random.Random(0)
     for _ in range(4):
         process = begin(*REPRODUCE)
@@ -81,3 +84,4 @@ def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(begin, here, undi
     assert process.returncode == 0
     assert left_on_disk(here / RUN) == undisturbed
     assert not list(here.rglob("*.part"))
+    assert list(here.glob("cache/motionese/compiled-*/*"))

@@ -72,5 +72,6 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
 def latest_checkpoint(folder: Path) -> Checkpoint | None:
     """Return the checkpoint of the last whole loop, if there is one."""
-    paths = sorted(folder.glob("loop-*.safetensors"))
-    return read_checkpoint(paths[-1]) if paths else None
+    paths = folder.glob("loop-*.safetensors")
+    latest = max(paths, key=lambda path: int(path.stem.removeprefix("loop-")), default=None)
+    return read_checkpoint(latest) if latest else None

@@ -13,7 +13,7 @@ from distributed import Client, Future, LocalCluster, as_completed, get_worker
 from distributed.scheduler import KilledWorker
 
 from motionese.errors import MotioneseError, StorageError
-from motionese.experiment.one_core import one_core
+from motionese.experiment.one_core import one_core_each
 from motionese.experiment.run import Run, go_through
 from motionese.experiment.settings import Settings
 
@@ -123,9 +123,13 @@ def _client(workers: int) -> Iterator[Client]:
     # The resource tracker would unblock it if it were started by them.
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    quiet = {"logging.distributed": "critical"}
     try:
-        with dask.config.set(quiet), _cluster(workers) as cluster, Client(cluster) as client:
+        with (
+            one_core_each(),
+            dask.config.set({"logging.distributed": "critical"}),
+            _cluster(workers) as cluster,
+            Client(cluster) as client,
+        ):
             try:
                 signal.pthread_sigmask(signal.SIG_SETMASK, before)
                 yield client
@@ -146,7 +150,6 @@ def _cluster(workers: int) -> LocalCluster:
         dashboard_address="127.0.0.1:0",
         worker_dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
-        env=one_core(),
     )
 
 

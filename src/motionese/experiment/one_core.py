@@ -3,11 +3,28 @@
 import os
 import sys
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 ONE_THREAD = "--xla_cpu_multi_thread_eigen"
 KEPT_FROM = "0.1"
 """Functions that compile faster than this [s] are not kept."""
+
+
+@contextmanager
+def one_core_each() -> Iterator[None]:
+    """Let every process that is started meanwhile use one core; this one keeps its environment.
+
+    The variables must be there when a process starts: jax reads them when it is imported.
+    """
+    before = dict(os.environ)
+    os.environ.update(one_core())
+    try:
+        yield
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
 
 
 def one_core() -> dict[str, str]:

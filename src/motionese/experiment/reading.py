@@ -80,7 +80,9 @@ def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
 
 def preset_text(name: str) -> str:
     """Return a preset's file, to be copied and edited."""
-    return resources.files("motionese.experiment.presets").joinpath(f"{name}.toml").read_text()
+    return (
+        resources.files("motionese.experiment.presets").joinpath(f"{name}.toml").read_text("utf-8")
+    )
 
 
 def _preset(name: str) -> Table:
@@ -92,7 +94,7 @@ def _file(preset: str) -> Table:
     if not path.is_file():
         raise SettingError(f"{unknown('preset', preset, PRESETS)}, or the path of a TOML file")
     try:
-        return tomllib.loads(path.read_text())
+        return tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SettingError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:

@@ -45,7 +45,7 @@ def _centimetres(rows: pd.DataFrame) -> str:
     """Return the median over seeds of each seed's mean over motions."""
     if rows.empty:
         return "–"
-    return f"{rows.groupby('seed')['imitation_error_cm'].median().median():.1f}"
+    return f"{rows.groupby('seed')['imitation_error_cm'].mean().median():.1f}"
 
 
 def _untrained(triples: pd.DataFrame, name: str) -> str:
