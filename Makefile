@@ -8,7 +8,9 @@ READY := $(VENV)/.ready
 
 .PHONY: reproduce test test-all lint benchmarks clean
 
-reproduce: $(READY)
+reproduce:
+	@echo "The report will be at $(OUT)/report.html"
+	@$(MAKE) --no-print-directory $(READY)
 	@$(BIN)/motionese reproduce --seeds $(SEEDS) --out $(OUT)
 
 test: $(READY) lint

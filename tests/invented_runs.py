@@ -27,6 +27,7 @@ def loops_table(condition, seed, rng, error, loops=LOOPS):
                 "motion": motion.name, "imitation_error_cm": base,
                 "recognition_residual_cm": 0.3 * base, "model_error_cm": 0.5 * base,
                 "buttons_due": 1, "buttons_pressed": int(loop > 2), "press_depth_mm": 2.0 * loop,
+                "press_depths_mm": " ".join([str(2.0 * loop)] * min(2, loop)),
                 "reproduction_error_cm": 0.2 * base, "status": "recognised", "seconds": 0.1,
             })  # fmt: skip
     return pd.DataFrame(rows)
@@ -63,9 +64,9 @@ def map_table(condition, seed, rng, turn, points=4):
     return pd.DataFrame(rows)
 
 
-def development_table(condition, seed, opens):
+def development_table(condition, seed, opens, loops=LOOPS):
     rows = []
-    for loop in range(1, LOOPS + 1):
+    for loop in range(1, loops + 1):
         rms = 2.0 + 0.1 * loop if loop >= opens else np.nan
         rows.append({
             "condition": condition, "seed": seed, "loop": loop, "levels": 3, "loss": 1.0,
@@ -103,15 +104,45 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
     if end == "unfinished":
         return folder
     error = ERRORS[name] if error is None else error
-    loops_table(name, seed, rng, error, loops).to_csv(folder / "loops.csv", index=False)
     opens = 1 if condition.structuring == "MND" else CHANGE + 1
-    development_table(name, seed, opens).to_csv(folder / "development.csv", index=False)
-    reason = "" if end == "finished" else "loop 2: diverged at epoch 3"
-    ended = {"status": end, "reason": reason, "seconds": 12.5}
-    (folder / "ended.json").write_text(json.dumps(ended))
+    tables = {
+        "loops.csv": loops_table(name, seed, rng, error, loops),
+        "development.csv": development_table(name, seed, opens, loops),
+    }
     if end == "finished":
-        triples_table(name, seed, rng, error).to_csv(folder / "triples.csv", index=False)
-        points = map_table(name, seed, rng, TURN[name] if turn is None else turn)
-        points.to_csv(folder / "slow_state_map.csv", index=False)
+        tables["triples.csv"] = triples_table(name, seed, rng, error)
+        tables["slow_state_map.csv"] = map_table(
+            name, seed, rng, TURN[name] if turn is None else turn
+        )
         np.savez_compressed(folder / "inside.npz", **inside_arrays(rng))
+    for file, table in tables.items():
+        table.to_csv(folder / file, index=False)
+    reason = "" if end == "finished" else "loop 2: diverged at epoch 3"
+    rows = {file: len(table) for file, table in tables.items()}
+    write_end(folder, {"status": end, "reason": reason, "seconds": 12.5, "rows": rows})
     return folder
+
+
+def write_end(folder, ended):
+    """Write how a run ended, or change what is said of it."""
+    path = folder / "ended.json"
+    before = json.loads(path.read_text()) if path.is_file() else {}
+    path.write_text(json.dumps(before | ended))
+
+
+def without_map(folder):
+    """Leave a run as one of a network without a slow level."""
+    (folder / "slow_state_map.csv").write_text("\n")
+    rows = json.loads((folder / "ended.json").read_text())["rows"]
+    write_end(folder, {"rows": rows | {"slow_state_map.csv": 0}})
+
+
+def without_phase_2(folder):
+    """Leave a run as one of settings whose phase 1 is all."""
+    loops = pd.read_csv(folder / "loops.csv")
+    loops[loops["phase"] == 1].to_csv(folder / "loops.csv", index=False)
+    development = pd.read_csv(folder / "development.csv")
+    development[development["loop"] <= CHANGE].to_csv(folder / "development.csv", index=False)
+    ended = json.loads((folder / "ended.json").read_text())
+    del ended["rows"]
+    (folder / "ended.json").write_text(json.dumps(ended))

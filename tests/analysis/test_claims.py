@@ -3,11 +3,14 @@
 import numpy as np
 import pandas as pd
 import pytest
+from invented_runs import triples_table
 
-from motionese.analysis.claims import claims
-from motionese.analysis.measures import Measures, error_at_end, typical_seed
+from motionese.analysis.claims import Claim, Part, claims
+from motionese.analysis.map_numbers import COLUMNS as COLUMNS_OF_THE_MAP
+from motionese.analysis.measures import Measures, error_at_end, measured, typical_seed
 from motionese.analysis.verdicts import COLUMNS, claims_table, judge, judge_alone
 from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment.settings import Phases
 
 NAMES = [c.name for c in CONDITIONS]
 SEEDS = 8
@@ -82,6 +85,32 @@ def test_directions_that_are_the_same_everywhere_are_not_so_in_one_condition_onl
                     " only") == "does not hold"  # fmt: skip
 
 
+def one_part_against(differences, parts):
+    for_it = Part("for it", pd.Series(np.linspace(1, 2, len(differences))))
+    return Claim("a claim", (Part("against", pd.Series(differences)), *[for_it] * (parts - 1)))
+
+
+def test_a_part_among_several_speaks_against_a_claim_at_a_stricter_level():
+    against = -np.linspace(1, 2, 7)  # p = 2 / 2⁷ = 0.0156
+    assert judge(one_part_against(against, 1)).verdict == "does not hold"
+    assert judge(one_part_against(against, 3)).verdict == "does not hold"
+    found = judge(one_part_against(against, 4))
+    assert found.verdict == "undecided with 7 seeds" and found.part.measured == "against"
+    assert judge(one_part_against(-np.linspace(1, 2, 8), 4)).verdict == "does not hold"
+
+
+def test_a_claim_of_many_parts_holds_without_correction():
+    six = Part("for it", pd.Series(np.linspace(1, 2, 6)))
+    assert judge(Claim("a claim", (six,) * 4)).verdict == "holds"
+
+
+def test_a_phase_of_no_loops_has_no_claims():
+    none = by_condition([1.0] * 4).iloc[:0]
+    of = measures()
+    texts = {c.text for c in claims(measures(error_at_end=of.error_at_end | {2: none}))}
+    assert texts == {c.text for c in claims(of) if "phase 2 ends" not in c.text}
+
+
 def test_main_effects_and_interaction_by_hand():
     table = claims_table([judge(c) for c in claims(measures())]).set_index("claim")["statistic"]
     assert table["(b) Teaching in phases (TD) helps"] == pytest.approx(0.2, abs=0.05)
@@ -143,6 +172,19 @@ def test_error_at_the_end_of_a_phase():
     assert error_at_end(table, 1)["TD/MD"].to_list() == pytest.approx([3.0, 7.0])
     assert error_at_end(table, 2)["TD/MD"].to_list() == pytest.approx([2.0, 7.0])
     assert error_at_end(table, 2)["TND/MD"].isna().all()
+
+
+@pytest.mark.parametrize(("change_after", "seeds"), [(2, [0, 1]), (4, []), (9, [])])
+def test_the_end_of_a_phase_of_no_loops(change_after, seeds):
+    finished = loops(0, [9.0, 4.0, 3.0, 2.0], [1] * min(4, change_after) + [2] * len(seeds))
+    table = pd.concat([finished, loops(1, [9.0], [1])])  # The second one diverged.
+    triples = triples_table("TD/MD", 0, np.random.default_rng(0), 1.0)
+    numbers = pd.DataFrame(columns=COLUMNS_OF_THE_MAP)
+    phases = Phases(loops=4, change_after=change_after)
+    found = measured(table, triples, numbers, phases)
+    assert found.error_at_end[1]["TD/MD"].index.to_list() == [0, 1]
+    assert found.error_at_end[2]["TD/MD"].index.to_list() == seeds
+    assert found.last_error is found.error_at_end[2 if seeds else 1]
 
 
 def test_every_motion_of_a_loop_counts():

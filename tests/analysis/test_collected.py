@@ -2,12 +2,14 @@
 
 import json
 
+import numpy as np
 import pandas as pd
 import pytest
+from invented_runs import without_map, write_end
 
 from motionese.analysis.collected import LEADING_COLUMNS, collect
 from motionese.analysis.facts import flat, read_facts
-from motionese.errors import RunFolderError, SettingError
+from motionese.errors import RunFolderError, StorageError
 from motionese.experiment.conditions import CONDITIONS, condition
 
 TD_MD, TND_MND = condition("TD/MD"), condition("TND/MND")
@@ -48,7 +50,7 @@ def test_how_runs_ended(tmp_path, make_run):
 
 def test_a_run_without_a_slow_level_has_an_empty_map(tmp_path, make_run):
     folder = make_run(tmp_path, TD_MD, 0)
-    (folder / "slow_state_map.csv").write_text("\n")
+    without_map(folder)
     assert collect(tmp_path).slow_state_map.empty
 
 
@@ -72,11 +74,138 @@ def test_no_ended_run(tmp_path, make_run):
         collect(tmp_path)
 
 
-def test_a_lost_table(tmp_path, make_run):
+def refused(folder, file, told):
+    with pytest.raises(RunFolderError) as caught:
+        collect(folder.parents[1])
+    sentence = str(caught.value)
+    assert file in sentence and told in sentence and "\n" not in sentence
+    assert "remove ended.json beside it, and the same `motionese reproduce` command" in sentence
+
+
+def without_row_counts(folder):
+    path = folder / "ended.json"
+    ended = json.loads(path.read_text())
+    del ended["rows"]
+    path.write_text(json.dumps(ended))
+
+
+TABLES = pytest.mark.parametrize("name", LEADING_COLUMNS)
+
+
+@TABLES
+def test_a_lost_table(tmp_path, make_run, name):
     folder = make_run(tmp_path, TD_MD, 0)
-    (folder / "loops.csv").unlink()
-    with pytest.raises(RunFolderError, match=r"loops\.csv is missing"):
+    (folder / f"{name}.csv").unlink()
+    refused(folder, f"{name}.csv", "is missing")
+
+
+@TABLES
+@pytest.mark.parametrize("counted", [True, False])
+@pytest.mark.parametrize(
+    ("damage", "told"),
+    [
+        (lambda whole: b"", "empty"),
+        (lambda whole: whole[: len(whole) // 2], "cut short"),
+        (lambda whole: whole[:-1], "cut short"),
+        (lambda whole: b"\x00\xff\xfe\x93" * 50, "not a text"),
+        (lambda whole: whole + b"stray\n", "columns"),
+        (lambda whole: whole + b"\n", "columns"),
+        (lambda whole: whole.replace(b"\n", b",1,2\n").replace(b",1,2\n", b"\n", 1), "columns"),
+        (lambda whole: whole[: whole.index(b"\n") + 1], "no rows"),
+        (lambda whole: whole.replace(b"seed", b"sead", 1), "no column seed"),
+        (lambda whole: whole.replace(b"TD/MD,0,", b"TD/MD,x,", 1), "not every seed"),
+        (lambda whole: whole.replace(b"TD/MD,0,", b"TD/MD,7,", 1), "rows of another run"),
+        (lambda whole: whole.replace(b"TD/MD", b'"TD/MD', 1), "damaged"),
+    ],
+)
+def test_a_damaged_table(tmp_path, make_run, name, counted, damage, told):
+    folder = make_run(tmp_path, TD_MD, 0)
+    path = folder / f"{name}.csv"
+    path.write_bytes(damage(path.read_bytes()))
+    if not counted:
+        without_row_counts(folder)
+    refused(folder, path.name, told)
+
+
+@TABLES
+def test_a_table_that_lost_whole_lines(tmp_path, make_run, name):
+    folder = make_run(tmp_path, TD_MD, 0)
+    path = folder / f"{name}.csv"
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[:-1]))
+    refused(folder, path.name, f"{len(lines) - 2} rows of {len(lines) - 1}")
+
+
+def test_a_map_of_no_points_where_there_were_some(tmp_path, make_run):
+    folder = make_run(tmp_path, TD_MD, 0)
+    (folder / "slow_state_map.csv").write_text("\n")
+    refused(folder, "slow_state_map.csv", "0 rows of")
+
+
+@pytest.mark.parametrize(
+    ("name", "column", "value"),
+    [
+        ("loops", "imitation_error_cm", "4..2"),
+        ("loops", "loop", None),
+        ("loops", "motion", None),
+        ("triples", "trained", "Fals"),
+        ("development", "rms_cs_to_cf", "?"),
+        ("slow_state_map", "direction_2_rad", "east"),
+    ],
+)
+def test_a_cell_that_is_not_what_its_column_holds(tmp_path, make_run, name, column, value):
+    folder = make_run(tmp_path, TD_MD, 0)
+    path = folder / f"{name}.csv"
+    table = pd.read_csv(path).astype({column: object})
+    table.loc[1, column] = value
+    table.to_csv(path, index=False)
+    refused(folder, path.name, f"not every {column} is one")
+
+
+def test_runs_of_before_rows_were_counted(tmp_path, make_run):
+    folder = make_run(tmp_path, TD_MD, 0)
+    counted = collect(tmp_path)
+    without_row_counts(folder)
+    pd.testing.assert_frame_equal(collect(tmp_path).loops, counted.loops)
+
+
+@pytest.mark.parametrize("text", ["[1]", "7", "{}", "null", "{", '{"reason": ""}', "\x00"])
+def test_an_end_that_tells_no_status(tmp_path, make_run, text):
+    folder = make_run(tmp_path, TD_MD, 0)
+    (folder / "ended.json").write_text(text)
+    with pytest.raises((RunFolderError, StorageError), match=r"ended\.json.*remove it"):
         collect(tmp_path)
+
+
+@pytest.mark.parametrize("wrong", [{"status": 3}, {"seconds": "long"}, {"rows": [1]}])
+def test_an_end_of_another_shape(tmp_path, make_run, wrong):
+    write_end(make_run(tmp_path, TD_MD, 0), wrong)
+    with pytest.raises(RunFolderError, match=r"ended\.json does not tell how .* remove it"):
+        collect(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda whole: b"",
+        lambda whole: whole[: len(whole) // 2],
+        lambda whole: whole[:100] + bytes(100) + whole[200:],
+        lambda whole: b"\x93NUMPY garbage",
+        lambda whole: b"no archive at all",
+    ],
+)
+def test_damaged_performances(tmp_path, make_run, damage):
+    path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(RunFolderError, match=r"inside\.npz is damaged .*remove ended\.json"):
+        collect(tmp_path).inside(TD_MD, 0)
+
+
+def test_performances_that_lack_an_array(tmp_path, make_run):
+    path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
+    np.savez(path, activity=np.zeros((2, 2)))
+    with pytest.raises(RunFolderError, match=r"no commanded, sensed, depths, poses"):
+        collect(tmp_path).inside(TD_MD, 0)
 
 
 def test_inside(tmp_path, make_run):
@@ -101,13 +230,32 @@ def test_a_folder_that_tells_nothing(tmp_path):
     assert facts.settings.network.gain == 4.0
 
 
-def test_broken_facts(tmp_path):
-    (tmp_path / "environment.json").write_text("{")
-    with pytest.raises(RunFolderError, match="not a JSON object"):
+@pytest.mark.parametrize("text", ["{", "[1]", "7", "[[1, 2]]"])
+def test_broken_facts(tmp_path, text):
+    (tmp_path / "environment.json").write_text(text)
+    with pytest.raises(RunFolderError, match=r"environment\.json: not a JSON object"):
         read_facts(tmp_path)
-    (tmp_path / "settings.json").write_text(json.dumps({"settings": {"phases": 3}}))
-    with pytest.raises(SettingError, match="phases"):
-        read_facts(tmp_path)
+
+
+OURS = {"format": "motionese-run", "version": 1}
+
+
+@pytest.mark.parametrize(
+    ("record", "told"),
+    [
+        (OURS | {"settings": {"phases": 3}}, r"does not fit this version .* phases = 3"),
+        (OURS | {"settings": {"curriculum": {}}}, r"does not fit this version .* is missing"),
+        (OURS | {"settings": [1]}, "holds no settings"),
+        (OURS, "holds no settings"),
+        (OURS | {"version": 9}, "run folder of format 9"),
+        ({"a": 1}, "was not written by motionese"),
+        ([1], "not a JSON object"),
+    ],
+)
+def test_settings_of_another_schema_are_told_before_runs_are_looked_for(tmp_path, record, told):
+    (tmp_path / "settings.json").write_text(json.dumps(record))
+    with pytest.raises(RunFolderError, match=told):
+        collect(tmp_path)
 
 
 def test_flat():

@@ -1,11 +1,13 @@
 """The whole report on invented runs: complete, self-contained, the same every time."""
 
+import json
 import re
 import shutil
 from html.parser import HTMLParser
 
 import pandas as pd
 import pytest
+from invented_runs import CHANGE, without_map, without_phase_2
 
 from motionese.analysis import write_report
 from motionese.errors import RenderingError, RunFolderError
@@ -172,9 +174,30 @@ def test_nothing_but_a_diverged_run(tmp_path, make_run):
 
 def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
     folder = make_run(tmp_path, TD_MD, 0)
-    (folder / "slow_state_map.csv").write_text("\n")
+    without_map(folder)
     page = Page(write_report(tmp_path).path.read_text())
     assert "no slow level, no map" in page.text
+
+
+def test_phase_1_is_all(tmp_path, make_run, unrendered, eight_seeds):
+    facts = json.loads((eight_seeds / "settings.json").read_text())
+    facts["settings"]["phases"] = {"loops": CHANGE, "change_after": CHANGE}
+    (tmp_path / "settings.json").write_text(json.dumps(facts))
+    for seed in range(2):
+        without_phase_2(make_run(tmp_path, TD_MD, seed))
+    report = write_report(tmp_path)
+    assert report.too_few == ""
+    claims = pd.read_csv(tmp_path / "claims.csv")["claim"]
+    assert claims.str.contains("phase 1").any() and not claims.str.contains("phase 2").any()
+    text = report.path.read_text()
+    row = re.search(
+        r"<tr><th scope=\"row\">TD/MD</th><td>2</td><td>([^<]*)</td><td>(.*?)</td>", text
+    )
+    assert row is not None and row[1] != "–" and row[2] == "–"
+
+
+def test_verdicts_on_several_parts_are_explained(whole):
+    assert "divided by the number of parts (Bonferroni)" in whole[3].text
 
 
 def test_a_report_is_written_anew(tmp_path, make_run, unrendered):

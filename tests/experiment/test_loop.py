@@ -182,9 +182,13 @@ def test_growth_keeps_what_was_learned(scene, looped):
 
 def test_evaluation_of_new_motions(scene):
     learner = learner_of(scene, levels=3)
-    rows, imitated = imitate_new_motions(scene, learner)
+    lessons = scene.settings.lessons("TD")
+    rows, imitated = imitate_new_motions(scene, learner, lessons)
     assert len(rows) == 7 and sum(row["trained"] for row in rows) == 3
-    kept = inside(learner, imitated)
+    taught = PUSHING_BUTTONS.motion("UR ↓↑↓")
+    others, _ = imitate_new_motions(scene, learner, (*lessons, (taught,)))
+    assert {row["motion"] for row in rows} - {row["motion"] for row in others} == {taught.name}
+    kept = inside(scene, learner, imitated)
     assert kept["activity"].shape == (42, learner.network.size)
     assert {name for name in kept if name.startswith("performed.")} == {
         f"performed.{row['motion']}" for row in rows

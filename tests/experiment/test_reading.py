@@ -61,10 +61,10 @@ def test_evaluation_recognises_as_learning_does_but_for_what_it_says():
 
 def test_a_file_is_laid_over_the_default(tmp_path):
     path = tmp_path / "mine.toml"
-    path.write_text('[network.levels.cs]\ntau = 40.0\n\n[teaching.TND]\nphase_1 = ["UR ↓↑←"]\n')
+    path.write_text('[network]\ngain = 3.0\n\n[teaching.TND]\nphase_1 = ["UR ↓↑←"]\n')
     settings = read_settings(str(path))
-    assert settings.network.levels["cs"].tau == 40.0
-    assert settings.network.levels["cs"].size == 2
+    assert (settings.network.gain, settings.network.influence) == (3.0, 0.25)
+    assert list(settings.network.levels) == ["io", "cf", "cs"]
     assert [m.name for m in settings.lessons("TND")[0]] == ["UR ↓↑←"]
 
 
@@ -109,6 +109,12 @@ def test_by_level_settings_can_be_set_one_by_one():
         ('[teaching.TD]\nphase_2 = ["UR ↓←"]', TaskError, "impossible sequence 'UR ↓←'"),
         ("[teaching.TX]\nphase_1 = 'primitives'", SettingError, "teaching.TX"),
         ("[network]\nlevels = 3", SettingError, "network.levels = 3"),
+        ("recognition = 5", SettingError, "setting recognition = 5"),
+        ("evaluation = 5", SettingError, "setting evaluation = 5"),
+        ("[evaluation]\nrecognition = 5", SettingError, "setting evaluation.recognition = 5"),
+        ("[teaching.TD]\nphase_1 = []", SettingError, "setting teaching.TD.phase_1 = []"),
+        ("[training]\nbound = -1", SettingError, "setting training.bound = -1"),
+        ("[teaching.TX]\nphase_1 = 'a'", SettingError, "did you mean 'teaching.T"),
     ],
 )
 def test_wrong_files_are_told(tmp_path, text, error, told):
@@ -117,6 +123,20 @@ def test_wrong_files_are_told(tmp_path, text, error, told):
     with pytest.raises(error) as raised:
         read_settings(str(path))
     assert told in str(raised.value)
+
+
+def test_a_file_s_levels_are_all_there_are(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        "[network.levels]\nio = { size = 6, tau = 2.0 }\ncf = { size = 30, tau = 4.0 }\n"
+        "[training]\nbound = 5.0\n[recognition]\nbound = 100.0\n"
+    )
+    assert list(read_settings(str(path)).network.levels) == ["io", "cf"]
+    path.write_text(
+        "[network.levels]\ncf = { size = 9, tau = 4.0 }\ncs = { size = 2, tau = 9.0 }\n"
+    )
+    with pytest.raises(SettingError, match="all levels must be listed, from io upwards"):
+        read_settings(str(path))
 
 
 def test_a_preset_that_does_not_exist_is_told():

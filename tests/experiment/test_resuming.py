@@ -1,10 +1,13 @@
 """A run that was stopped ends with the same bits as one that was not."""
 
+import numpy as np
 import pytest
-from small_runs import left_on_disk
+from small_runs import SMALL, left_on_disk
 
+from motionese.caregiver import PUSHING_BUTTONS, RecordedCaregiver, ScriptedCaregiver
 from motionese.errors import StorageError
 from motionese.experiment.conditions import condition
+from motionese.experiment.reading import read_settings
 from motionese.experiment.run import Run, go_through
 
 
@@ -72,3 +75,51 @@ def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
     (tmp_path / "ended.json").write_text('{"status": "fin')
     with pytest.raises(StorageError, match=r"ended\.json: cannot be read; remove it"):
         go_through(run, small_settings, lambda loop: None)
+
+
+@pytest.mark.parametrize(
+    ("name", "seed", "overrides", "told"),
+    [
+        ("TD/MND", 5, [], "a checkpoint of loop 1 of TD/MD seed 5, settings"),
+        ("TD/MD", 6, [], "where one of TD/MD seed 6, settings"),
+        ("TD/MD", 5, ["training.epochs=6"], "where one of TD/MD seed 5, settings"),
+    ],
+)
+def test_a_checkpoint_of_another_run_or_other_settings_is_refused(
+    tmp_path, small_settings, compiled, name, seed, overrides, told
+):
+    stopped_after(Run(condition("TD/MD"), 5, tmp_path), small_settings, 1)
+    settings = read_settings(overrides=[*SMALL, *overrides], quick=True)
+    with pytest.raises(StorageError) as error:
+        go_through(Run(condition(name), seed, tmp_path), settings, print)
+    assert told in str(error.value)
+
+
+def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_settings, compiled):
+    run = Run(condition("TD/MD"), 5, tmp_path)
+    stopped_after(run, small_settings, 1)
+    (tmp_path / "loop-01.safetensors").rename(tmp_path / "loop-02.safetensors")
+    with pytest.raises(StorageError, match="a checkpoint of loop 1 of TD/MD"):
+        go_through(run, small_settings, print)
+
+
+@pytest.mark.parametrize("content", ["[1]", "7", "{}", "", "{"])
+def test_an_ending_that_is_none_is_refused(tmp_path, content):
+    (tmp_path / "ended.json").write_text(content)
+    with pytest.raises(StorageError, match="remove it, and the run is evaluated again"):
+        Run(condition("TD/MD"), 5, tmp_path).ended()
+
+
+def test_recorded_demonstrations_stand_in_for_the_scripted_caregiver(
+    tmp_path, small_settings, compiled
+):
+    manner = small_settings.caregiver.model_copy(update={"variability_mm": 0.0})
+    scripted, rng = ScriptedCaregiver(manner), np.random.default_rng(0)
+    motions = [m for length in (1, 2, 3) for m in PUSHING_BUTTONS.sequences(length)]
+    recorded = RecordedCaregiver({m.name: [scripted.demonstrate(m, rng)] for m in motions})
+    run = Run(condition("TD/MD"), 5, tmp_path)
+    ended = go_through(run, small_settings, lambda loop: None, recorded)
+    assert ended["status"] == "finished"
+    with np.load(tmp_path / "inside.npz") as kept:
+        shown = kept["shown.UR ↓↑←"]
+    np.testing.assert_allclose(shown, recorded.recordings["UR ↓↑←"][0], atol=1e-9)

@@ -1,8 +1,10 @@
 """Run folders: made, gone on with, refused; free after a kill; told by one clear sentence."""
 
 import json
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -94,6 +96,8 @@ def test_a_folder_that_is_not_ours_is_left_alone(tmp_path, settings):
         ("[]", "not written by motionese"),
         ('{"format": "motionese-run"', "cannot be read"),
         ('{"format": "motionese-run", "version": 2, "settings": {}}', "format 2"),
+        ('{"format": "motionese-run", "version": 1}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 1, "settings": 5}', "holds no settings"),
     ],
 )
 def test_settings_that_are_not_ours_are_refused(tmp_path, settings, content, told):
@@ -114,16 +118,16 @@ def test_a_folder_below_a_file_is_refused(tmp_path, settings):
     assert "cannot be written to: Not a directory" in refused(tmp_path / "file" / "run", settings)
 
 
-def test_a_read_only_folder_is_refused(tmp_path, settings):
+def test_a_read_only_folder_is_refused(tmp_path, settings, monkeypatch):
     tmp_path.chmod(0o555)
-    try:
-        (tmp_path / "probe").touch()
-    except PermissionError:
-        assert "cannot be written to: Permission denied" in refused(tmp_path / "run", settings)
-    else:
-        pytest.skip("permission bits do not bind this user")
-    finally:
-        tmp_path.chmod(0o755)
+    if os.access(tmp_path, os.W_OK):  # Permission bits do not bind this user: play the refusal.
+
+        def mkdir(path, *_, **__):
+            raise PermissionError(13, "Permission denied", str(path))
+
+        monkeypatch.setattr(Path, "mkdir", mkdir)
+    assert "cannot be written to: Permission denied" in refused(tmp_path / "run", settings)
+    tmp_path.chmod(0o755)
 
 
 def test_a_full_or_read_only_file_system_is_refused(tmp_path, settings, monkeypatch):

@@ -8,7 +8,13 @@ from motionese import generate, load, save
 from motionese.errors import StorageError
 from motionese.network import read_network, write_network
 
-PARTS = ("initial_states", "losses", "validation_losses", "closed_loop_error")
+PARTS = (
+    "initial_states",
+    "losses",
+    "validation_losses",
+    "teacher_forced_error",
+    "closed_loop_error",
+)
 
 
 @pytest.fixture

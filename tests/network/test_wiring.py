@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from motionese.network import MTRNN, Level, wiring
+from motionese.network.wiring import draw_weights
 
 SIZES = (30, 40, 25, 35)
 
@@ -49,3 +50,12 @@ def test_the_same_key_draws_the_same_weights_and_another_key_others():
 
     np.testing.assert_array_equal(first, again)
     assert (np.asarray(first) != np.asarray(other)).all()
+
+
+def test_networks_of_one_key_share_the_weights_of_the_blocks_they_share():
+    small, large = (
+        draw_weights(sizes, 4.0, "fan_in", jax.random.key(3)) for sizes in ((3, 9), (3, 9, 2))
+    )
+    np.testing.assert_array_equal(large[:12, :12], small)
+    firsts = [large[0, 0], large[0, 3], large[3, 0], large[3, 3], large[3, 12], large[12, 3]]
+    assert len({float(first) for first in firsts}) == len(firsts)

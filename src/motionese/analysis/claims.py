@@ -48,6 +48,8 @@ def _difference(measure: pd.DataFrame, larger: str, smaller: str, what: str) -> 
 def _learning(measures: Measures) -> list[Claim]:
     found = []
     for phase, errors in measures.error_at_end.items():
+        if errors.empty:
+            continue  # a phase of no loops
         what = f"imitation error at the end of phase {phase} [cm]"
         alone = [Part(f"{TND_MD} − {CONVERGED_CM}, {what}", errors[TND_MD] - CONVERGED_CM)]
         others = [name for name in NAMES if name != TND_MD]

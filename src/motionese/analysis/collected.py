@@ -9,6 +9,7 @@ import pandas as pd
 from numpy import ndarray
 
 from motionese.analysis.facts import Facts, read_facts
+from motionese.analysis.run_files import read_end, read_inside, read_table
 from motionese.errors import RunFolderError
 from motionese.experiment.conditions import CONDITIONS, Condition
 from motionese.experiment.run import Run
@@ -22,10 +23,13 @@ LEADING_COLUMNS = {
         "status seconds",
         "development": "condition seed loop levels",
         "triples": f"condition seed motion trained {MEASURED} {PRESSED} status",
-        "slow_state_map": "condition seed primitive cs_1 cs_2",
+        "slow_state_map": "condition seed primitive cs_1 cs_2 direction_1_rad extent_1_rad "
+        "direction_2_rad extent_2_rad",
     }.items()
 }
 """Columns that every table has, in this order; further ones follow as the runs wrote them."""
+EVALUATED = ("triples", "slow_state_map")
+"""Tables of what is done after the last loop."""
 
 
 @dataclass(frozen=True)
@@ -60,24 +64,24 @@ class Collected:
         return tuple(c for c in CONDITIONS if c.name in present)
 
     def inside(self, condition: Condition, seed: int) -> dict[str, ndarray] | None:
-        """Return what was kept of a run's performances, or None."""
+        """Return what was kept of a run's performances, or None; `RunFolderError` if damaged."""
         path = self.folder / condition.folder / f"seed-{seed}" / "inside.npz"
-        if not path.is_file():
-            return None
-        with np.load(path, allow_pickle=False) as kept:
-            return {name: kept[name] for name in kept.files}
+        return read_inside(path) if path.is_file() else None
 
 
 def collect(folder: Path) -> Collected:
     """Read a run folder.
 
     Raises:
-        RunFolderError: There is no such folder, it has no ended run, or a run lacks a table.
+        RunFolderError: There is no such folder, its settings are not of this version, it has no
+            ended run, or a table of one is missing or damaged.
+        StorageError: How a run ended cannot be read.
     """
     if not folder.is_dir():
         raise RunFolderError(f"{folder}: there is no such run folder")
-    runs = [(run, run.ended()) for run in _runs(folder)]
-    ended = [run for run, end in runs if end is not None]
+    facts = read_facts(folder)
+    runs = [(run, read_end(run)) for run in _runs(folder)]
+    ended = [(run, end) for run, end in runs if end is not None]
     if not ended:
         raise RunFolderError(
             f"{folder}: no ended run in it; "
@@ -85,7 +89,7 @@ def collect(folder: Path) -> Collected:
         )
     tables = {name: _together(name, ended) for name in LEADING_COLUMNS}
     how = pd.DataFrame([_how_it_ended(run, end) for run, end in runs])
-    return Collected(folder=folder, runs=how, facts=read_facts(folder), **tables)
+    return Collected(folder=folder, runs=how, facts=facts, **tables)
 
 
 def _runs(folder: Path) -> list[Run]:
@@ -113,9 +117,9 @@ def _how_it_ended(run: Run, end: dict[str, Any] | None) -> dict[str, Any]:
     }
 
 
-def _together(name: str, runs: list[Run]) -> pd.DataFrame:
+def _together(name: str, ended: list[tuple[Run, dict[str, Any]]]) -> pd.DataFrame:
     leading = LEADING_COLUMNS[name]
-    read = [_table(run, name) for run in runs]
+    read = [_table(run, end, name) for run, end in ended]
     if not any(len(table) for table in read):
         return pd.DataFrame(columns=leading)
     table = pd.concat([table for table in read if len(table)], ignore_index=True)
@@ -123,13 +127,10 @@ def _together(name: str, runs: list[Run]) -> pd.DataFrame:
     return table.reindex(columns=[*leading, *others])
 
 
-def _table(run: Run, name: str) -> pd.DataFrame:
-    path = run.folder / f"{name}.csv"
-    if not path.is_file():
-        if name in ("triples", "slow_state_map"):
-            return pd.DataFrame()  # a diverged run is not evaluated
-        raise RunFolderError(f"{path} is missing, though the run has ended: remove its ended.json")
-    try:
-        return pd.read_csv(path)
-    except pd.errors.EmptyDataError:
-        return pd.DataFrame()
+def _table(run: Run, end: dict[str, Any], name: str) -> pd.DataFrame:
+    if end["status"] == "diverged" and name in EVALUATED:
+        return pd.DataFrame()  # a diverged run is not evaluated
+    rows = end.get("rows", {}).get(f"{name}.csv")
+    # A network without a slow level has no map.
+    empty = name == "slow_state_map"
+    return read_table(run, name, LEADING_COLUMNS[name], rows, may_be_empty=empty)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from motionese.errors import RunFolderError
+from motionese.errors import RunFolderError, SettingError
 from motionese.experiment.reading import checked, read_settings
-from motionese.experiment.run_folder import ENVIRONMENT, SETTINGS
+from motionese.experiment.run_folder import ENVIRONMENT, SETTINGS, run_settings
 from motionese.experiment.settings import Settings
 
 
@@ -30,11 +30,16 @@ class Facts:
 
 
 def read_facts(folder: Path) -> Facts:
-    """Read `settings.json` and `environment.json` of a run folder, as far as they are there."""
+    """Read `settings.json` and `environment.json` of a run folder, as far as they are there.
+
+    Raises:
+        RunFolderError: One of them is damaged, or the settings are not of this version.
+    """
     record = _json(folder / SETTINGS)
-    table = record.pop("settings", None)
-    settings = read_settings() if table is None else checked(table)
-    return Facts(settings, record, _json(folder / ENVIRONMENT), told=table is not None)
+    told = (folder / SETTINGS).is_file()
+    settings = _settings(folder) if told else read_settings()
+    record.pop("settings", None)
+    return Facts(settings, record, _json(folder / ENVIRONMENT), told)
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:
@@ -44,6 +49,15 @@ def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]
             yield from flat(value, f"{prefix}{name}.")
         else:
             yield f"{prefix}{name}", _in_words(value)
+
+
+def _settings(folder: Path) -> Settings:
+    try:
+        return checked(run_settings(folder))
+    except SettingError as error:
+        raise RunFolderError(
+            f"{folder / SETTINGS} does not fit this version of motionese: {error}"
+        ) from error
 
 
 def _in_words(value: Any) -> str:
@@ -60,6 +74,9 @@ def _json(path: Path) -> dict[str, Any]:
     if not path.is_file():
         return {}
     try:
-        return dict(json.loads(path.read_text()))
-    except (ValueError, TypeError) as error:
+        found = json.loads(path.read_text())
+    except (OSError, ValueError) as error:
         raise RunFolderError(f"{path}: not a JSON object: {error}") from error
+    if not isinstance(found, dict):
+        raise RunFolderError(f"{path}: not a JSON object, got {type(found).__name__}")
+    return found

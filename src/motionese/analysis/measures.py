@@ -6,6 +6,7 @@ from typing import Literal
 import pandas as pd
 
 from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment.settings import Phases
 
 LAST_LOOPS = 3
 """The error at the end of a phase is the mean over its last loops."""
@@ -16,7 +17,8 @@ class Measures:
     """Tables with a row per seed and a column per condition, NaN where there is no such run.
 
     Attributes:
-        error_at_end: Imitation error [cm] at the end of phase 1 and of phase 2.
+        error_at_end: Imitation error [cm] at the end of phase 1 and of phase 2; without rows for a
+            phase of no loops.
         trained_error: Mean imitation error [cm] of the triples made of taught pairs.
         untrained_error: The same of those with a pair that is never taught.
         untrained_spread: Standard deviation [cm] of the latter over the motions.
@@ -31,19 +33,29 @@ class Measures:
     resultant_length: pd.DataFrame
     slow_level_part: pd.DataFrame
 
+    @property
+    def last_error(self) -> pd.DataFrame:
+        """Imitation error [cm] at the end of the last phase that has loops."""
+        return self.error_at_end[1 if self.error_at_end[2].empty else 2]
 
-def measured(loops: pd.DataFrame, triples: pd.DataFrame, numbers: pd.DataFrame) -> Measures:
+
+def measured(
+    loops: pd.DataFrame, triples: pd.DataFrame, numbers: pd.DataFrame, phases: Phases
+) -> Measures:
     """Return the measures.
 
     Args:
         loops: A row per condition, seed, loop and motion.
         triples: A row per condition, seed and new motion.
         numbers: A row per condition and seed on its map.
+        phases: Which loops the phases have.
     """
     taught = triples["trained"].astype(bool)
     kept = numbers.assign(part=1 - numbers["share_cf_2"])
+    # Up to the end of a phase 2 of no loops, phase 1's would be taken for its error.
+    second = loops if phases.change_after < phases.loops else loops.iloc[:0]
     return Measures(
-        error_at_end={phase: error_at_end(loops, phase) for phase in (1, 2)},
+        error_at_end={1: error_at_end(loops, 1), 2: error_at_end(second, 2)},
         trained_error=_by_seed(triples[taught], "imitation_error_cm"),
         untrained_error=_by_seed(triples[~taught], "imitation_error_cm"),
         untrained_spread=_by_seed(triples[~taught], "imitation_error_cm", "std"),

@@ -37,7 +37,7 @@ def errors_table(measures: Measures, triples: pd.DataFrame) -> Table:
             "untrained", "sd over seeds", "residual, untrained"]  # fmt: skip
     rows = []
     untrained = triples[~triples["trained"].astype(bool)]
-    for condition in _present(measures.error_at_end[2]):
+    for condition in _present(measures.last_error):
         name = condition.name
         columns = [
             *(measures.error_at_end[phase][name] for phase in (1, 2)),
@@ -49,7 +49,7 @@ def errors_table(measures: Measures, triples: pd.DataFrame) -> Table:
         residual = own.groupby("seed")["recognition_residual_cm"].mean().astype(float)
         rows.append([
             name,
-            str(estimates[1].seeds),
+            str(measures.last_error[name].count()),
             *(with_interval(e) for e in estimates),
             number(float(measures.untrained_error[name].std())),
             with_interval(_over_seeds(residual)),

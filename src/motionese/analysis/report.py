@@ -47,15 +47,18 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
         told: Called with a line about each step.
 
     Raises:
-        RunFolderError: There is no ended run in it, or it cannot be written to.
+        RunFolderError: There is no ended run in it, a file in it is damaged, or it cannot be
+            written to.
+        StorageError: How a run ended cannot be read.
     """
     tell = told or (lambda line: None)
     collected = collect(run_folder)
     ended = int((collected.runs["status"] != "unfinished").sum())
     tell(f"{ended} of {len(collected.runs)} runs have ended")
-    strokes = true_strokes(collected.facts.settings.caregiver)
+    settings = collected.facts.settings
+    strokes = true_strokes(settings.caregiver)
     numbers = map_numbers(collected.slow_state_map, collected.development, strokes)
-    measures = measured(collected.loops, collected.triples, numbers)
+    measures = measured(collected.loops, collected.triples, numbers, settings.phases)
     results = [judge(claim) for claim in claims(measures)]
     try:
         _write_tables(collected, numbers, results)
@@ -99,7 +102,7 @@ def _write_figure(folder: Path, shown: Shown) -> None:
 def _too_few(measures: Measures, conditions: Sequence[Condition]) -> str:
     """Return why the conditions that were run cannot be tested, or ""."""
     names = [c.name for c in conditions]
-    common = measures.error_at_end[2][names].dropna()
+    common = measures.last_error[names].dropna()
     try:
         check_seeds(len(common), f"with an ended run in {listed(names)}")
     except TooFewSeedsError as reason:

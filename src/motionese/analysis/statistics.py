@@ -1,8 +1,8 @@
 """Statistics over seeds: intervals, paired tests, effect sizes, and verdicts computed from them.
 
-The unit is the seed: it fixes the initial weights and every demonstration, so that conditions of
-the same seed are compared in pairs. Everything resampled is resampled from a fixed generator: the
-same data give the same numbers.
+The unit is the seed: conditions of the same seed have the same demonstrations and, in the levels
+they share, the same initial weights, so they are compared in pairs. Everything resampled is
+resampled from a fixed generator: the same data give the same numbers.
 """
 
 import math
@@ -115,7 +115,7 @@ def check_seeds(seeds: int, what: str) -> None:
         )
 
 
-def verdict(tested: Contrast | None, seeds: int = 0) -> str:
+def verdict(tested: Contrast | None, seeds: int = 0, parts: int = 1) -> str:
     """Return "holds", "does not hold", or "undecided with n seeds".
 
     A claim is decided only where the interval leaves out 0 and the test agrees.
@@ -123,11 +123,12 @@ def verdict(tested: Contrast | None, seeds: int = 0) -> str:
     Args:
         tested: The contrast, positive where it speaks for the claim; None if there is none.
         seeds: How many seeds there were when there is no contrast.
+        parts: How many contrasts the claim has, any of which may speak against it.
     """
-    if tested is not None and tested.p <= LEVEL:
-        if tested.low > 0:
+    if tested is not None:
+        if tested.low > 0 and tested.p <= LEVEL:
             return "holds"
-        if tested.high < 0:
+        if tested.high < 0 and tested.p <= LEVEL / parts:
             return "does not hold"
     count = tested.seeds if tested is not None else seeds
     return f"undecided with {count} seed{'' if count == 1 else 's'}"

@@ -1,7 +1,9 @@
 """What the runs say to the claims.
 
-A claim of several parts holds only if every part does (an intersection–union test), so the row that
-is reported for it is its weakest part.
+A claim of several parts holds only if every part does (an intersection–union test, which needs no
+correction), so the row that is reported for it is its weakest part. It does not hold as soon as one
+part speaks against it: the more parts, the more easily one does so by chance, and for that verdict
+the level is divided by their number (Bonferroni).
 """
 
 import math
@@ -64,7 +66,7 @@ def _judge_part(claim: Claim, part: Part) -> Judgement:
         found = contrast(differences.to_numpy(dtype=np.float64), part.measured)
     except TooFewSeedsError:
         return Judgement(claim, part, None, seeds, verdict(None, seeds))
-    return Judgement(claim, part, found, seeds, verdict(found))
+    return Judgement(claim, part, found, seeds, verdict(found, parts=len(claim.parts)))
 
 
 def _strength(part: Judgement) -> tuple[int, float]:

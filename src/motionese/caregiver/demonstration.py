@@ -31,8 +31,8 @@ class Demonstrating(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    stroke_steps: int = Field(ge=2)
-    rest_steps: int = Field(ge=0)
+    stroke_steps: int = Field(ge=2, le=1000)
+    rest_steps: int = Field(ge=0, le=1000)
     variability_mm: float = Field(ge=0, le=50)
     persistence: float = Field(ge=0, lt=1)
     corners: dict[str, tuple[float, float, float]] = {}

@@ -17,6 +17,7 @@ class Checkpoint:
     """A run after a whole loop.
 
     Attributes:
+        origin: Which run of which settings it belongs to.
         loop: The loop that was finished.
         learner: What the robot has become.
         rows: What was measured in this loop, a row per motion.
@@ -25,6 +26,7 @@ class Checkpoint:
         seconds: How long the run has taken so far [s].
     """
 
+    origin: str
     loop: int
     learner: Learner
     rows: list[Row]
@@ -52,8 +54,12 @@ def write_checkpoint(folder: Path, checkpoint: Checkpoint) -> None:
     write_network(checkpoint_path(folder, checkpoint.loop), learner.network, arrays, facts)
 
 
-def read_checkpoint(path: Path) -> Checkpoint:
-    """Read a checkpoint; `StorageError` if it is cut short or not one of ours."""
+def read_checkpoint(path: Path, origin: str) -> Checkpoint:
+    """Read a checkpoint of a run.
+
+    Raises:
+        StorageError: It is cut short, not one of ours, or of another loop, run or other settings.
+    """
     network, arrays, facts = read_network(path)
     try:
         experiences = tuple(
@@ -65,13 +71,23 @@ def read_checkpoint(path: Path) -> Checkpoint:
             )
             for i, each in enumerate(facts.pop("experiences"))
         )
-        return Checkpoint(learner=Learner(network, experiences), **facts)
+        checkpoint = Checkpoint(learner=Learner(network, experiences), **facts)
     except (KeyError, TypeError) as error:
         raise StorageError(f"{path}: a model, but not a checkpoint of an experiment") from error
+    if checkpoint.origin != origin or path.name != checkpoint_path(path, checkpoint.loop).name:
+        raise StorageError(
+            f"{path}: a checkpoint of loop {checkpoint.loop} of {checkpoint.origin}, "
+            f"where one of {origin} should be"
+        )
+    for experience in experiences:
+        fits = experience.initial_state.shape == (network.size,)
+        if not (fits and np.isfinite(experience.initial_state).all()):
+            raise StorageError(f"{path}: initial states that do not fit its network")
+    return checkpoint
 
 
-def latest_checkpoint(folder: Path) -> Checkpoint | None:
-    """Return the checkpoint of the last whole loop, if there is one."""
+def latest_checkpoint(folder: Path, origin: str) -> Checkpoint | None:
+    """Return the checkpoint of a run's last whole loop, if there is one."""
     paths = folder.glob("loop-*.safetensors")
     latest = max(paths, key=lambda path: int(path.stem.removeprefix("loop-")), default=None)
-    return read_checkpoint(latest) if latest else None
+    return read_checkpoint(latest, origin) if latest else None

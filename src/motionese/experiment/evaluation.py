@@ -10,32 +10,47 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.body import bearing
-from motionese.caregiver import PUSHING_BUTTONS
+from motionese.caregiver import PUSHING_BUTTONS, Motion
 from motionese.experiment.imitation_loop import Imitated, Row, imitate
 from motionese.experiment.learner import Learner
 from motionese.experiment.scene import Scene
 from motionese.learning import activity, generate
 
 NEW_MOTIONS = PUSHING_BUTTONS.sequences(3)
-"""The motions of three primitives, none of which is ever taught as a whole."""
+Lessons = tuple[tuple[Motion, ...], ...]
 LOOKED_INTO = PUSHING_BUTTONS.motion("UR ↓↑←")
 """The motion whose performance is kept with everything that went on inside."""
 SLOW, PRIMITIVES = "cs", PUSHING_BUTTONS.sequences(1)
 
 
-def imitate_new_motions(scene: Scene, learner: Learner) -> tuple[list[Row], list[Imitated]]:
-    """Imitate every motion of three primitives once, by recognition alone."""
+def imitate_new_motions(
+    scene: Scene, learner: Learner, lessons: Lessons
+) -> tuple[list[Row], list[Imitated]]:
+    """Imitate every motion of three primitives once, by recognition alone.
+
+    Args:
+        scene: Robot and caregiver.
+        learner: What the robot has become.
+        lessons: What it was taught in each phase. A motion counts as trained if all its pairs were
+            part of a lesson; one that was a lesson as a whole is no new motion.
+
+    Returns:
+        A row per new motion, and the imitations of all motions of three primitives.
+    """
+    taught = {motion for lesson in lessons for motion in lesson}
+    pairs = {pair for motion in taught for pair in motion.pairs()}
     imitated = imitate(
         scene, learner, NEW_MOTIONS, scene.settings.evaluation.recognition, "new motions"
     )
     rows = [
         {
             "motion": each.motion.name,
-            "trained": PUSHING_BUTTONS.is_taught(each.motion),
+            "trained": pairs.issuperset(each.motion.pairs()),
             **each.measures(scene),
             "status": each.found.status.ending.value,
         }
         for each in imitated
+        if each.motion not in taught
     ]
     return rows, imitated
 
@@ -79,7 +94,7 @@ def _strokes(seen: Float[ndarray, "G T 2"], begin: int, end: int) -> Float[ndarr
     return np.stack([np.arctan2(elevation, right), np.hypot(right, elevation)], axis=-1)
 
 
-def inside(learner: Learner, imitated: Sequence[Imitated]) -> dict[str, ndarray]:
+def inside(scene: Scene, learner: Learner, imitated: Sequence[Imitated]) -> dict[str, ndarray]:
     """Return what is kept of the performances: hands' paths of all, everything of one.
 
     Returns:
@@ -93,8 +108,7 @@ def inside(learner: Learner, imitated: Sequence[Imitated]) -> dict[str, ndarray]
         kept[f"shown.{each.motion.name}"] = each.watched.path
         kept[f"performed.{each.motion.name}"] = done.path
         if each.motion == LOOKED_INTO:
-            first = done.sensed[0].copy()
-            first[:2] = done.commanded[0]
+            first = done.experience(scene.settings.imitation.efference_copy)[0]
             kept |= {
                 "activity": activity(
                     learner.network, each.found.initial_state, len(done.path), first=first

@@ -56,6 +56,7 @@ class Imitated:
             "buttons_due": len(depths),
             "buttons_pressed": pressed(depths),
             "press_depth_mm": float(np.mean(depths)) if depths else np.nan,
+            "press_depths_mm": " ".join(f"{depth:.2f}" for depth in depths),
         }
 
 

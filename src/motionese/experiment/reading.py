@@ -34,18 +34,31 @@ def read_settings(
     """
     table = _preset("default")
     if preset != "default":
-        table = _laid_over(table, _preset(preset) if preset in PRESETS else _file(preset))
+        above = _preset(preset) if preset in PRESETS else _file(preset)
+        if isinstance(above.get("network"), Mapping) and "levels" in above["network"]:
+            # A list of levels stands for itself, so that a file can leave a level out.
+            table["network"] = {**table["network"], "levels": {}}
+        table = _laid_over(table, above)
     if quick:
         table = _laid_over(table, _preset("quick"))
     for override in overrides:
         table = _laid_over(table, _single(override, table))
-    table["evaluation"]["recognition"] = _laid_over(
-        table["recognition"], table["evaluation"]["recognition"]
-    )
-    settings = checked(table)
+    settings = checked(_with_evaluation(table))
     for teaching in settings.teaching:
         settings.lessons(teaching)
     return settings
+
+
+def _with_evaluation(table: Table) -> Table:
+    """Return the table with recognition in evaluation as in learning, but for what differs."""
+    learning, evaluation = table["recognition"], table["evaluation"]
+    if not isinstance(learning, Mapping) or not isinstance(evaluation, Mapping):
+        return table
+    differing = evaluation.get("recognition")
+    if not isinstance(differing, Mapping):
+        return table
+    whole = {**evaluation, "recognition": _laid_over(learning, differing)}
+    return {**table, "evaluation": whole}
 
 
 def checked(table: Table) -> Settings:
@@ -54,9 +67,16 @@ def checked(table: Table) -> Settings:
         return Settings.model_validate(table)
     except ValidationError as error:
         first = error.errors()[0]
-        path = [str(part) for part in first["loc"] if str(part) not in ("float", "dict")]
+        # Of a location, only what stands in the file: not which of several types was tried.
+        path: list[str] = []
+        here: Any = table
+        for part in map(str, first["loc"]):
+            stands = isinstance(here, Mapping) and (part in here or first["type"] == "missing")
+            if not stands:
+                break
+            path, here = [*path, part], here.get(part)
         name = ".".join(path)
-        if first["type"] == "extra_forbidden":
+        if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
             known = _known(path[:-1])
             raise SettingError(unknown("setting", name, known)) from error
         if first["type"] == "missing":

@@ -4,6 +4,7 @@ A run is a function of settings, condition and seed. It writes a checkpoint afte
 that was stopped, or killed, goes on from its last whole loop and ends with the same bits.
 """
 
+import hashlib
 import io
 import json
 import time
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from motionese.caregiver import Caregiver
 from motionese.errors import StorageError
 from motionese.experiment.checkpoint import (
     Checkpoint,
@@ -49,6 +51,11 @@ class Run:
         """How people are told of it, such as 'TD/MD seed 100'."""
         return f"{self.condition.name} seed {self.seed}"
 
+    def origin(self, settings: Settings) -> str:
+        """Return what its checkpoints are marked with: the run, and a digest of its settings."""
+        text = json.dumps(settings.model_dump(mode="json"), sort_keys=True)
+        return f"{self.name}, settings {hashlib.sha256(text.encode()).hexdigest()[:12]}"
+
     def loops_done(self) -> int:
         """Return the number of its last whole loop, 0 before the first."""
         return len(list(self.folder.glob("loop-*.safetensors")))
@@ -61,27 +68,37 @@ class Run:
         """
         path = self.folder / ENDED
         try:
-            return dict(json.loads(path.read_text())) if path.is_file() else None
-        except (OSError, ValueError) as error:
-            raise StorageError(
-                f"{path}: cannot be read; remove it, and the run is evaluated again"
-            ) from error
+            ended = json.loads(path.read_text()) if path.is_file() else None
+        except (OSError, ValueError):
+            ended = {}
+        if ended is not None and not (isinstance(ended, dict) and "status" in ended):
+            raise StorageError(f"{path}: cannot be read; remove it, and the run is evaluated again")
+        return ended
 
 
-def go_through(run: Run, settings: Settings, told: Callable[[int], None]) -> Row:
+def go_through(
+    run: Run,
+    settings: Settings,
+    told: Callable[[int], None],
+    caregiver: Caregiver | None = None,
+) -> Row:
     """Do what is left of a run, and return how it ended.
 
     Args:
         run: The run.
         settings: All settings.
         told: Called after every loop with its number.
+        caregiver: Who shows the motions; the scripted caregiver if left out.
+
+    Raises:
+        StorageError: A checkpoint that is cut short, or of another run or other settings.
     """
     ended = run.ended()
     if ended:
         return ended
     run.folder.mkdir(parents=True, exist_ok=True)
-    scene = Scene(settings, run.seed)
-    checkpoint = latest_checkpoint(run.folder)
+    scene = Scene(settings, run.seed, caregiver)
+    checkpoint = latest_checkpoint(run.folder, run.origin(settings))
     while checkpoint is None or (
         checkpoint.loop < settings.phases.loops and not checkpoint.failure
     ):
@@ -99,8 +116,9 @@ def _next_loop(run: Run, scene: Scene, before: Checkpoint | None) -> Checkpoint:
     phase = 1 if loop <= settings.phases.change_after else 2
     if loop == settings.phases.change_after + 1:
         while len(learner.network.levels) < len(settings.network.levels):
-            key = key_for(run.seed, "growth", len(learner.network.levels))
-            learner = learner.grown(settings.network, key)
+            # The network's own key: a level that opens late gets the weights, times the influence,
+            # that the same seed gives it in a network that has it from the start.
+            learner = learner.grown(settings.network, key_for(run.seed, "network"))
     opened = {f"{k}_at_opening": v for k, v in development(learner).items() if k.startswith("rms")}
     known = {k: v for k, v in before.development.items() if k in opened} if before else {}
     lessons = settings.lessons(run.condition.teaching)
@@ -109,6 +127,7 @@ def _next_loop(run: Run, scene: Scene, before: Checkpoint | None) -> Checkpoint:
         scene, learner, lessons[phase - 1], loop, capacity
     )
     return Checkpoint(
+        origin=run.origin(settings),
         loop=loop,
         learner=learner,
         rows=[{"loop": loop, "phase": phase, **row} for row in rows],
@@ -157,21 +176,26 @@ def _born(run: Run, scene: Scene) -> Learner:
 def _finish(run: Run, scene: Scene, last: Checkpoint) -> Row:
     """Write the run's tables; evaluate it if it did not fail."""
     began = time.perf_counter()
-    loops = [read_checkpoint(checkpoint_path(run.folder, i + 1)) for i in range(last.loop)]
-    who = {"condition": run.condition.name, "seed": run.seed}
-    write_table(run.folder / "loops.csv", [{**who, **row} for c in loops for row in c.rows])
-    write_table(run.folder / "development.csv", [{**who, **c.development} for c in loops])
+    paths = [checkpoint_path(run.folder, loop) for loop in range(1, last.loop + 1)]
+    loops = [read_checkpoint(path, last.origin) for path in paths]
+    tables = {
+        "loops.csv": [row for checkpoint in loops for row in checkpoint.rows],
+        "development.csv": [checkpoint.development for checkpoint in loops],
+    }
     if not last.failure:
-        new, imitated = imitate_new_motions(scene, last.learner)
-        points = map_slow_states(scene, last.learner)
-        write_table(run.folder / "triples.csv", [{**who, **row} for row in new])
-        write_table(run.folder / "slow_state_map.csv", [{**who, **row} for row in points])
+        lessons = scene.settings.lessons(run.condition.teaching)
+        tables["triples.csv"], imitated = imitate_new_motions(scene, last.learner, lessons)
+        tables["slow_state_map.csv"] = map_slow_states(scene, last.learner)
         kept = io.BytesIO()
-        np.savez_compressed(kept, allow_pickle=False, **inside(last.learner, imitated))
+        np.savez_compressed(kept, allow_pickle=False, **inside(scene, last.learner, imitated))
         write_whole(run.folder / "inside.npz", kept.getvalue())
+    who = {"condition": run.condition.name, "seed": run.seed}
+    for name, rows in tables.items():
+        write_table(run.folder / name, [{**who, **row} for row in rows])
     ended = {
         "status": "diverged" if last.failure else "finished",
         "reason": last.failure,
+        "rows": {name: len(rows) for name, rows in tables.items()},
         "seconds": round(last.seconds + time.perf_counter() - began, 2),
     }
     write_whole(run.folder / ENDED, json.dumps(ended, indent=1))

@@ -86,7 +86,8 @@ def _begun(path: Path, settings: Settings, preset: str) -> RunFolder:
 def run_settings(path: Path) -> Facts:
     """Return the settings of a run folder; `RunFolderError` if it is none."""
     if not path.is_dir():
-        raise RunFolderError(f"{path} is no run folder: there is no such folder")
+        what = "it is a file" if path.exists() else "there is no such folder"
+        raise RunFolderError(f"{path} is no run folder: {what}")
     if not (path / SETTINGS).is_file():
         raise RunFolderError(f"{path} is no run folder: it has no {SETTINGS}")
     facts = _facts(path / SETTINGS)
@@ -97,6 +98,8 @@ def run_settings(path: Path) -> Facts:
             f"{path}: run folder of format {facts.get('version')}, this version of motionese "
             f"reads {VERSION}; install a newer one"
         )
+    if not isinstance(facts.get("settings"), dict):
+        raise RunFolderError(f"{path / SETTINGS} holds no settings; it was changed by hand")
     return dict(facts["settings"])
 
 

@@ -1,6 +1,6 @@
 """Everything that may be varied, as types with their allowed ranges."""
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from motionese.body import BodySettings
 from motionese.caregiver import PUSHING_BUTTONS, Curriculum, Demonstrating, Motion
@@ -39,6 +39,13 @@ class NetworkSettings(Group):
     initial_io: InitialIO
     influence: float = Field(ge=0, allow_inf_nan=False)
     levels: dict[str, LevelSettings] = Field(min_length=2)
+
+    @field_validator("levels")
+    @classmethod
+    def _io_comes_first(cls, levels: dict[str, LevelSettings]) -> dict[str, LevelSettings]:
+        if next(iter(levels)) != "io":
+            raise ValueError(f"all levels must be listed, from io upwards, got {', '.join(levels)}")
+        return levels
 
     def drawn_levels(self) -> tuple[Level, ...]:
         """Return the levels from IO upwards."""

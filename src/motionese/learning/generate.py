@@ -85,7 +85,7 @@ def _outputs(network: MTRNN, initial: Array, sensed: Array, share: Array) -> Arr
     return jax.nn.sigmoid(rollout(network, initial, sensed, share))
 
 
-def closed_loop_errors(
+def channel_errors(
     predicted: Float[ndarray, "S T D"], batch: Batch, channels: Channels
 ) -> Float[ndarray, "S D"]:
     """Return every motion's root mean squared error in the channels' units.
@@ -99,9 +99,21 @@ def closed_loop_errors(
     return np.asarray(np.sqrt(mean) * channels.interval_widths)
 
 
+def predicted(
+    network: MTRNN, batch: Batch, initial: Float[Array | ndarray, "S N"], teacher_forcing: float
+) -> Float[ndarray, "S T D"]:
+    """Predict every row of a batch in the unit interval, from the initial states and row 0 on.
+
+    Args:
+        network: The network.
+        batch: The motions.
+        initial: Initial states of every motion.
+        teacher_forcing: 0 in closed loop, 1 with what was sensed as the input of every step.
+    """
+    share = jnp.asarray(teacher_forcing, network.weights.dtype)
+    return np.asarray(_predicted(network, batch, jnp.asarray(initial), share))
+
+
 @eqx.filter_jit
-def predicted_in_closed_loop(
-    network: MTRNN, batch: Batch, initial: Float[Array, "S N"]
-) -> Float[Array, "S T D"]:
-    """Predict every row of a batch in the unit interval, from the initial states and row 0."""
-    return predictions(network, batch, initial, 0.0)
+def _predicted(network: MTRNN, batch: Batch, initial: Array, share: Array) -> Array:
+    return predictions(network, batch, initial, share)

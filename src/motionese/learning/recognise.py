@@ -17,7 +17,7 @@ from numpy import ndarray
 from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
 from motionese.learning.carried import carried
-from motionese.learning.generate import closed_loop_errors, predicted_in_closed_loop
+from motionese.learning.generate import channel_errors, predicted
 from motionese.learning.motions import Batch, Motions
 from motionese.learning.objective import initial_potentials, predictions, squared_errors
 from motionese.learning.optimisers import recognition_rule
@@ -219,8 +219,8 @@ def _judged(
     losses: Float[ndarray, "S M"],
     settings: Recognition,
 ) -> list[Found]:
-    paths = np.asarray(predicted_in_closed_loop(network, batch, jnp.asarray(states)))
-    residuals = closed_loop_errors(paths, batch, motions.channels)
+    paths = predicted(network, batch, states, 0.0)
+    residuals = channel_errors(paths, batch, motions.channels)
     ranges = np.array([c.high - c.low for c in motions.channels])
     found = []
     for i, length in enumerate(motions.lengths):

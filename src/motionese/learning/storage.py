@@ -9,7 +9,13 @@ from motionese.learning.status import Ending, Status
 from motionese.learning.train import Fit
 from motionese.network import read_network, write_network
 
-ARRAYS = ("initial_states", "losses", "validation_losses", "closed_loop_error")
+ARRAYS = (
+    "initial_states",
+    "losses",
+    "validation_losses",
+    "teacher_forced_error",
+    "closed_loop_error",
+)
 FACTS = ("names", "status", "sentence")
 
 

@@ -13,7 +13,7 @@ from numpy import ndarray
 
 from motionese.errors import SettingError
 from motionese.learning.carried import carried
-from motionese.learning.generate import closed_loop_errors, predicted_in_closed_loop
+from motionese.learning.generate import channel_errors, predicted
 from motionese.learning.motions import Batch, Motions
 from motionese.learning.objective import initial_potentials, predictions, squared_errors
 from motionese.learning.optimisers import training_rule
@@ -40,6 +40,8 @@ class Fit:
         losses: Equation (3) per epoch, summed over motions, before that epoch's update. [E]
         validation_losses: The same of the held-out motions, recognised after every `CHUNK`
             epochs; empty without any. [E / CHUNK]
+        teacher_forced_error: Root mean squared error of every motion with what was sensed as
+            the input of every step, each channel in its unit. [S, D]
         closed_loop_error: Root mean squared error of every motion in closed loop, each channel in
             its unit. [S, D]
         status: How training ended.
@@ -50,6 +52,7 @@ class Fit:
     names: tuple[str, ...]
     losses: Float[ndarray, " E"]
     validation_losses: Float[ndarray, " V"]
+    teacher_forced_error: Float[ndarray, "S D"]
     closed_loop_error: Float[ndarray, "S D"]
     status: Status
 
@@ -254,14 +257,17 @@ def _fit(
 ) -> Fit:
     free = state.parameters["initial"]
     initial = np.asarray(initial_potentials(network, batch, free))
-    predicted = np.asarray(predicted_in_closed_loop(network, batch, free))
-    errors = closed_loop_errors(predicted, batch, motions.channels)
+    forced, closed = (
+        channel_errors(predicted(network, batch, free, share), batch, motions.channels)
+        for share in (1.0, 0.0)
+    )
     return Fit(
         network=network,
         initial_states=initial[: len(motions)],
         names=motions.names,
         losses=np.asarray(losses),
         validation_losses=np.asarray(held_out.losses if held_out else []),
-        closed_loop_error=errors[: len(motions)],
+        teacher_forced_error=forced[: len(motions)],
+        closed_loop_error=closed[: len(motions)],
         status=status,
     )

@@ -46,6 +46,18 @@ def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[nd
 def draw_weights(
     sizes: tuple[int, ...], gain: float, scale: Scale, key: Array
 ) -> Float[Array, "N N"]:
-    """Draw initial weights from N(0, scale²) on the wiring."""
-    deviates = jax.random.normal(key, (sum(sizes), sum(sizes)))
+    """Draw initial weights from N(0, scale²) on the wiring.
+
+    Every block has a key of its own: with the same key a network of two levels and one of three
+    have the same deviates in the blocks they share.
+    """
+    deviates = jnp.block(
+        [
+            [
+                jax.random.normal(jax.random.fold_in(jax.random.fold_in(key, i), j), (to, of))
+                for j, of in enumerate(sizes)
+            ]
+            for i, to in enumerate(sizes)
+        ]
+    )
     return deviates * jnp.asarray(weight_scales(sizes, gain, scale), dtype=deviates.dtype)
