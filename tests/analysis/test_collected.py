@@ -136,6 +136,18 @@ def test_a_table_that_lost_whole_lines(tmp_path, make_run, name):
     refused(folder, path.name, f"{len(lines) - 2} rows of {len(lines) - 1}")
 
 
+def test_a_stray_quote_does_not_swallow_rows(tmp_path, make_run):
+    folder = make_run(tmp_path, TD_MD, 0)
+    without_row_counts(folder)
+    path = folder / "loops.csv"
+    table = pd.read_csv(path)
+    table = table[[*table.columns.drop("press_depths_mm"), "press_depths_mm"]]
+    head, first, second, *others = table.to_csv(index=False).splitlines(keepends=True)
+    second = ',"'.join(second.rsplit(",", 1))
+    path.write_text("".join([head, first, second, *others]))
+    refused(folder, "loops.csv", "damaged")
+
+
 def test_a_map_of_no_points_where_there_were_some(tmp_path, make_run):
     folder = make_run(tmp_path, TD_MD, 0)
     (folder / "slow_state_map.csv").write_text("\n")

@@ -108,7 +108,7 @@ def _parsed(text: str, *, may_be_empty: bool) -> pd.DataFrame:
     if not text.endswith("\n"):
         raise ValueError("its last line is cut short")
     # pandas would fill a line that is cut short with missing values.
-    head, *lines = csv.reader(io.StringIO(text), strict=True)
+    head, *lines = csv.reader(io.StringIO(text))
     for number, line in enumerate(lines, start=1):
         if len(line) != len(head):
             raise ValueError(f"row {number} has {len(line)} of {len(head)} columns")
