@@ -66,17 +66,14 @@ def imitate(
     motions: Sequence[Motion],
     settings: Recognition,
     *occasion: str | int,
-    capacity: int | None = None,
 ) -> list[Imitated]:
     """Take steps 1 to 3 with some motions; nothing is learned."""
     network, channels = learner.network, scene.body.channels
     watched = [scene.show(motion, *occasion) for motion in motions]  # step 1
     values = [scene.as_own(m, w) for m, w in zip(motions, watched, strict=True)]
-    masks = []
-    for value in values:
-        mask = np.ones(value.shape, dtype=bool)
+    masks = [np.ones(value.shape, dtype=bool) for value in values]
+    for mask in masks:
         mask[1:, ARM] = False
-        masks.append(mask)
     seen = Motions.from_arrays(
         values, channels, scene.body.rate_hz, observed=masks, names=[m.name for m in motions]
     )
@@ -87,7 +84,6 @@ def imitate(
         starts=starts,
         settings=for_levels(settings, learner),
         key=key_for(scene.seed, "recognition", *occasion),
-        padded_to=(capacity or len(motions), max(seen.lengths)),
     )
     performed = [  # step 3
         scene.perform(network, f.initial_state, motion, len(value), *occasion)

@@ -84,7 +84,7 @@ def checked(table: Table) -> Settings:
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name}{got}: {what}".replace("setting : ", "")) from error
+        raise SettingError(f"setting {name}{got}: {what}" if name else what) from error
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:

@@ -10,9 +10,10 @@ SLOWER, SLOWER_FROM = 0.3, 0.7
 """Recognition's rate is multiplied by the first after this share of its iterations."""
 
 
-@lru_cache(maxsize=64)
-def update_rule(name: Optimiser, rate: float, momentum: float) -> optax.GradientTransformation:
-    """Return plain descent, descent with momentum, or Adam, at one rate."""
+def update_rule(
+    name: Optimiser, rate: float | optax.Schedule, momentum: float
+) -> optax.GradientTransformation:
+    """Return plain descent, descent with momentum, or Adam, at one rate or one that changes."""
     if name == "adam":
         return optax.adam(rate)
     return optax.sgd(rate, momentum if name == "momentum" else None)
@@ -56,6 +57,4 @@ def recognition_rule(
 ) -> optax.GradientTransformation:
     """Return the update rule of recognition, whose rate falls towards the end."""
     falling = optax.piecewise_constant_schedule(rate, {round(SLOWER_FROM * iterations): SLOWER})
-    if name == "adam":
-        return optax.adam(falling)
-    return optax.sgd(falling, momentum if name == "momentum" else None)
+    return update_rule(name, falling, momentum)
