@@ -1,7 +1,5 @@
 """What is sensed: named channels with a unit and a range, and their mapping to the unit interval.
 
-The network's IO units are sigmoids, so a channel's range is mapped to 0.1–0.9 and whatever lies
-beyond it is clipped to 0.02–0.98, where a logit is still finite and a gradient still flows.
 Scaling belongs to the channels, not to the data: a saved network carries its channels with it.
 """
 
@@ -15,11 +13,7 @@ from jaxtyping import Float, Int
 from numpy import ndarray
 
 from motionese.errors import ChannelError, unknown
-
-INNER_LOW, INNER_HIGH = 0.1, 0.9
-"""Where a channel's range lies in the unit interval."""
-CLIP_LOW, CLIP_HIGH = 0.02, 0.98
-"""Limits of every value in the unit interval, targets and inputs alike."""
+from motionese.unit_interval import INNER_HIGH, INNER_LOW, from_unit, to_unit
 
 
 @dataclass(frozen=True)
@@ -75,15 +69,12 @@ class Channels(Sequence[Channel]):
     def to_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
         """Map values [the channels' units], last axis the channels, to the unit interval."""
         self._check_width(values)
-        share = (values - self._low) / self._span
-        scaled = INNER_LOW + (INNER_HIGH - INNER_LOW) * share
-        return np.asarray(np.clip(scaled, CLIP_LOW, CLIP_HIGH))
+        return to_unit(values, self._low, self._span)
 
     def from_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
         """Map the unit interval, last axis the channels, back to the channels' units."""
         self._check_width(values)
-        share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
-        return np.asarray(self._low + self._span * share)
+        return from_unit(values, self._low, self._span)
 
     def _check_width(self, values: Float[ndarray, "*shape"]) -> None:
         if values.ndim == 0 or values.shape[-1] != len(self):

@@ -24,6 +24,18 @@ class MotionError(MotioneseError):
     """Recorded motions that cannot be learned from: empty, not finite, of the wrong shape."""
 
 
+class RecordingError(MotioneseError):
+    """A file of recordings that cannot be read as what it is said to be, or not be written."""
+
+
+class MissingPackageError(MotioneseError):
+    """What was asked for needs a package that is not installed; the text says which extra."""
+
+
+class ControlError(MotioneseError):
+    """A control loop that cannot be run as it is set, or readings that do not fit its model."""
+
+
 class TaskError(MotioneseError):
     """A motion that the task does not allow, or a corner that the arm does not reach."""
 
@@ -51,3 +63,11 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     near = get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.4)
     hint = f"; did you mean '{folded[near[0]]}'?" if near else ";"
     return f"unknown {kind} '{name}'{hint} there are: {', '.join(names)}"
+
+
+def needs(package: str, extra: str, what: str) -> MissingPackageError:
+    """Return the error that says how to install an extra, for raising where its import failed."""
+    return MissingPackageError(
+        f"{what} needs the package '{package}', which is not installed: "
+        f"pip install 'motionese[{extra}]'"
+    )

@@ -1,0 +1,25 @@
+"""Where values lie in the unit interval, in which the network's IO units live. Needs NumPy only.
+
+IO units are sigmoids, so a channel's range is mapped to 0.1–0.9 and whatever lies beyond it is
+clipped to 0.02–0.98, where a logit is still finite and a gradient still flows.
+"""
+
+import numpy as np
+from numpy import ndarray
+
+INNER_LOW, INNER_HIGH = 0.1, 0.9
+"""Where a channel's range lies in the unit interval."""
+CLIP_LOW, CLIP_HIGH = 0.02, 0.98
+"""Limits of every value in the unit interval, targets and inputs alike."""
+
+
+def to_unit(values: ndarray, low: ndarray, span: ndarray) -> ndarray:
+    """Map values [*shape, D] in the channels' units, which lie in [low, low + span], clipped."""
+    share = (values - low) / span
+    return np.asarray(np.clip(INNER_LOW + (INNER_HIGH - INNER_LOW) * share, CLIP_LOW, CLIP_HIGH))
+
+
+def from_unit(values: ndarray, low: ndarray, span: ndarray) -> ndarray:
+    """Map the unit interval [*shape, D] back to the channels' units."""
+    share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
+    return np.asarray(low + span * share)
