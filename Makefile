@@ -4,27 +4,34 @@ VENV := .venv
 BIN := $(VENV)/bin
 SEEDS ?= 3
 OUT ?= runs/default
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
 READY := $(VENV)/.ready
+TOOLS := $(VENV)/.tools
 
-.PHONY: reproduce test test-all lint benchmarks clean
+.PHONY: reproduce test test-all lint docs benchmarks clean
 
 reproduce:
 	@echo "The report will be at $(OUT)/report.html"
 	@$(MAKE) --no-print-directory $(READY)
 	@$(BIN)/motionese reproduce --seeds $(SEEDS) --out $(OUT)
 
-test: $(READY) lint
+test: $(TOOLS) lint
 	@$(BIN)/python -m pytest -n 2 -m "not slow" --cov --cov-report=term
 
-test-all: $(READY) lint
+test-all: $(TOOLS) lint
 	@$(BIN)/python -m pytest -n 2 --cov --cov-report=term
 
-lint: $(READY)
+lint: $(TOOLS)
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
 
-benchmarks: $(READY)
+docs: $(TOOLS)
+	@$(BIN)/python -m sphinx -W --keep-going -q docs build/docs
+	@echo "The pages are at build/docs/index.html"
+
+benchmarks: $(TOOLS)
+	@$(PIP) -e ".[dev,benchmarks]"
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
 
 $(READY): pyproject.toml constraints.txt
@@ -32,7 +39,12 @@ $(READY): pyproject.toml constraints.txt
 		{ echo "motionese needs Python 3.11 or newer; name one: make PYTHON=python3.12 ..."; exit 2; }
 	@echo "Setting up $(VENV) (once; about a minute) ..."
 	@$(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[dev,vision]"
+	@$(PIP) -e ".[vision]"
+	@touch $@
+
+$(TOOLS): $(READY)
+	@echo "Adding what the tests and the docs need (once; about a minute) ..."
+	@$(PIP) -e ".[dev]"
 	@touch $@
 
 clean:

@@ -12,9 +12,9 @@ import safetensors
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
 
 from motionese.experiment.conditions import condition
-from motionese.experiment.one_core import one_core
 from motionese.experiment.reading import read_settings
 from motionese.experiment.run import Run, go_through
+from motionese.one_core import one_core
 
 SMALL = (
     "phases.loops=3",

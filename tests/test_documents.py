@@ -2,25 +2,44 @@
 
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("src/**/*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("src/**/*.md")])
+
+TUTORIAL = ROOT / "docs" / "your_own_robot.md"
 
 
 def called(page):
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", PAGES, ids=called)
+@pytest.mark.parametrize("page", [page for page in PAGES if page != TUTORIAL], ids=called)
 def test_snippets_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {}
     for snippet in re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL):
         exec(compile(snippet, called(page), "exec"), names)
+
+
+@pytest.mark.slow
+def test_the_tutorial_s_snippets_and_commands_run_in_order(tmp_path, monkeypatch):
+    from motionese.interfaces.command_line import app, spread
+
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    steps = r"```python\n(.*?)```|^ {4}motionese ([^\n]*)$"
+    for snippet, command in re.findall(steps, TUTORIAL.read_text(), re.DOTALL | re.MULTILINE):
+        if command:
+            told = CliRunner().invoke(app, spread(shlex.split(command, comments=True)))
+            assert told.exit_code == 0, f"{command}\n{told.output}"
+        else:
+            exec(compile(snippet, called(TUTORIAL), "exec"), names)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=called)
@@ -56,3 +75,45 @@ def test_settings_named_in_the_docs_exist():
         for override in re.findall(r"--set (\S+=[^\s`]+)", page.read_text()):
             if "…" not in override:
                 read_settings(overrides=[override])
+
+
+def test_every_room_has_a_page_of_its_public_names():
+    rooms = {path.parent.name for path in (ROOT / "src" / "motionese").glob("*/__init__.py")}
+    told = "".join(page.read_text() for page in (ROOT / "docs" / "api").glob("*.md"))
+
+    assert rooms <= set(re.findall(r"automodule:: motionese\.(\w+)", told))
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Build the site as `make docs` does, with warnings as errors."""
+    folder = tmp_path_factory.mktemp("site")
+    build = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q"]
+    subprocess.run([*build, str(ROOT / "docs"), str(folder)], check=True)
+    return folder
+
+
+@pytest.mark.slow
+def test_the_site_is_built_without_warnings(site):
+    from typer.main import get_command
+
+    import motionese
+    from motionese.interfaces.command_line import app
+
+    library = (site / "api" / "index.html").read_text()
+    assert all(f"mo.{name}<" in library for name in motionese.__all__)
+    learning = (site / "api" / "learning.html").read_text()
+    assert 'id="motionese.learning.train"' in learning
+    commands = (site / "command_line.html").read_text()
+    assert all(f'id="motionese-{name}"' in commands for name in get_command(app).commands)
+    assert "The network: equations and names" in (site / "network.html").read_text()
+    assert 'href="network.html"' in (site / "equations.html").read_text()
+
+
+@pytest.mark.slow
+def test_the_site_asks_for_nothing_outside(site):
+    loads = r"<(?:script|link|img|iframe|source)\b[^>]*?(?:src|href)=\"((?:https?:)?//[^\"]*)"
+    for page in site.rglob("*.html"):
+        assert not re.findall(loads, page.read_text()), page
+    for sheet in site.rglob("*.css"):
+        assert not re.findall(r"(?:url\(|@import)\s*['\"]?(?:https?:)?//", sheet.read_text()), sheet

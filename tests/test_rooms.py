@@ -11,7 +11,10 @@ import motionese
 
 ROOT = Path(__file__).parents[1]
 SOURCES = sorted((ROOT / "src" / "motionese").rglob("*.py"))
-ROOMS = ("network", "body", "caregiver", "learning", "experiment", "analysis", "interfaces")
+ROOMS = (
+    *("recordings", "runtime", "network", "body", "caregiver"),
+    *("learning", "experiment", "analysis", "interfaces"),
+)
 PUBLIC = ["motionese", *(f"motionese.{room}" for room in ROOMS if room != "interfaces")]
 
 

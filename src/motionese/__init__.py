@@ -9,10 +9,13 @@ if TYPE_CHECKING:
         Fit,
         Found,
         Motions,
+        Progress,
         Recognition,
         Training,
         generate,
+        generate_sequence,
         load,
+        placed,
         recognise,
         save,
         train,
@@ -27,11 +30,14 @@ __all__ = [
     "Found",
     "Level",
     "Motions",
+    "Progress",
     "Recognition",
     "Training",
     "generate",
+    "generate_sequence",
     "grow",
     "load",
+    "placed",
     "recognise",
     "save",
     "train",
@@ -41,9 +47,14 @@ __version__ = "0.1.0"
 
 _ROOMS = {"channels": ("Channel", "Channels"), "network": ("MTRNN", "Level", "grow")}
 
+_WITH_AN_EXTRA = {"MTRNNImitator": "interfaces.estimator"}
+"""Public names that need an extra's package, and are not in `__all__`: `import *` asks for all."""
+
 
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, so that the command line answers at once."""
+    if name in _WITH_AN_EXTRA:
+        return getattr(import_module(f"{__name__}.{_WITH_AN_EXTRA[name]}"), name)
     if name not in __all__:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     room = next((room for room, names in _ROOMS.items() if name in names), "learning")
@@ -51,4 +62,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "__version__"]
+    return [*__all__, *_WITH_AN_EXTRA, "__version__"]

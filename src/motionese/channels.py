@@ -52,6 +52,12 @@ class Channels(Sequence[Channel]):
         return tuple(c.name for c in self._channels)
 
     @property
+    def spans(self) -> Float[ndarray, " D"]:
+        """The width of each channel's range, in its unit."""
+        spans: Float[ndarray, " D"] = self._span.copy()
+        return spans
+
+    @property
     def interval_widths(self) -> Float[ndarray, " D"]:
         """How much of each channel's unit the whole unit interval stands for."""
         widths: Float[ndarray, " D"] = self._span / (INNER_HIGH - INNER_LOW)

@@ -58,7 +58,34 @@ def error_and_gradients(net, motion, free, teacher_forcing):
     return error, slope
 
 
-def descent(net, motions, free, *, epochs, weight_rate, initial_rate, teacher_forcing, bound, clip):
+def rate_share(epoch, epochs, schedule):
+    """The share of a rate that an epoch is given, counted from 0.
+
+    A cosine schedule rises on a line from a tenth over the first twentieth of the epochs, then
+    falls along half a cosine to a hundredth, which the epoch after the last would be given.
+    """
+    if schedule == "constant":
+        return 1.0
+    rising = round(epochs / 20)
+    if epoch < rising:
+        return 0.1 + 0.9 * epoch / rising
+    fallen = (1.0 - math.cos(math.pi * (epoch - rising) / (epochs - rising))) / 2.0
+    return 1.0 - 0.99 * fallen
+
+
+def descent(
+    net,
+    motions,
+    free,
+    *,
+    epochs,
+    schedule,
+    weight_rate,
+    initial_rate,
+    teacher_forcing,
+    bound,
+    clip,
+):
     """Equations (4) and (5), every epoch with the gradients of all motions.
 
     Returns:
@@ -66,7 +93,8 @@ def descent(net, motions, free, *, epochs, weight_rate, initial_rate, teacher_fo
     """
     net, free = dict(net), np.array(free, dtype=float)
     errors = []
-    for _ in range(epochs):
+    for epoch in range(epochs):
+        share = rate_share(epoch, epochs, schedule)
         results = [
             error_and_gradients(net, motion, state, teacher_forcing)
             for motion, state in zip(motions, free, strict=True)
@@ -77,17 +105,21 @@ def descent(net, motions, free, *, epochs, weight_rate, initial_rate, teacher_fo
         d_free = np.array([slope["initial"] for _, slope in results])
         norm = math.sqrt((d_weights**2).sum() + (d_bias**2).sum() + (d_free**2).sum())
         shrink = clip / norm if clip and norm > clip else 1.0
+        shrink *= share
         net["weights"] = net["weights"] - weight_rate * shrink * d_weights
         net["bias"] = net["bias"] - weight_rate * shrink * d_bias
         free = np.clip(free - initial_rate * shrink * d_free, -bound, bound)
     return net, free, np.array(errors)
 
 
-def recognition(net, motion, free, *, iterations, rate, bound, penalty):
+def recognition(net, motion, free, *, iterations, rate, bound, penalty, enough=-math.inf):
     """Descent on the initial states alone, in closed loop; the rate falls to 0.3 after 70 %.
 
+    It ends early where the error has become as small as `enough`.
+
     Returns:
-        The best initial states on the way, and their error with the penalty on context states.
+        The best initial states on the way, their error with the penalty on context states, and
+        the iteration at which that was enough, infinite if it never was.
     """
     channels = len(motion[0][0])
 
@@ -97,11 +129,14 @@ def recognition(net, motion, free, *, iterations, rate, bound, penalty):
         return error + penalty * (context**2).sum(), slope["initial"] + 2 * penalty * context
 
     free = np.clip(np.array(free, dtype=float), -bound, bound)
-    best, smallest = free, math.inf
+    best, smallest, arrived = free, math.inf, math.inf
     for iteration in range(iterations + 1):
         loss, slope = judged(free)
         if loss < smallest:
             best, smallest = free, loss
+        if loss <= enough:
+            arrived = iteration
+            break
         slower = 0.3 if iteration >= 0.7 * iterations else 1.0
         free = np.clip(free - rate * slower * slope, -bound, bound)
-    return np.array(start(best, *motion, net["initial_io"])), smallest
+    return np.array(start(best, *motion, net["initial_io"])), smallest, arrived

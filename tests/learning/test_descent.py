@@ -19,6 +19,8 @@ from motionese import (
     train,
 )
 from motionese.learning import activity, recognise_all
+from motionese.learning.descent import descend
+from motionese.learning.optimisers import recognition_rule
 
 SIZES = {2: (2, 5), 3: (2, 4, 2), 4: (2, 3, 2, 1)}
 CHANNELS = Channels([Channel("x", "cm", -2.0, 2.0), Channel("y", "cm", 0.0, 5.0)])
@@ -51,15 +53,23 @@ def ragged(seed=0):
 
 
 @pytest.mark.parametrize(
-    ("levels", "learned_bias", "initial_io", "clip"),
-    [(3, True, "sensed", 0.0), (2, False, "sensed", 0.3), (4, True, "zero", 0.3)],
+    ("levels", "learned_bias", "initial_io", "clip", "schedule"),
+    [
+        (3, True, "sensed", 0.0, "constant"),
+        (2, False, "sensed", 0.3, "cosine"),
+        (4, True, "zero", 0.3, "constant"),
+    ],
 )
-def test_training_equals_plain_descent_by_hand(float64, levels, learned_bias, initial_io, clip):
+def test_training_equals_plain_descent_by_hand(
+    float64, levels, learned_bias, initial_io, clip, schedule
+):
     net, arrays = drawn(levels, learned_bias=learned_bias, initial_io=initial_io)
     motions, twins = ragged()
+    epochs = 25 if schedule == "cosine" else 4  # of which the first is the warm-up
     begin = np.random.default_rng(1).normal(size=(3, net.size))
     settings = Training(
-        epochs=4,
+        epochs=epochs,
+        schedule=schedule,
         optimiser="descent",
         weight_rate=0.2,
         initial_rate=0.8,
@@ -74,7 +84,8 @@ def test_training_equals_plain_descent_by_hand(float64, levels, learned_bias, in
         arrays,
         twins,
         begin,
-        epochs=4,
+        epochs=epochs,
+        schedule=schedule,
         weight_rate=0.2,
         initial_rate=0.8,
         teacher_forcing=0.3,
@@ -83,10 +94,11 @@ def test_training_equals_plain_descent_by_hand(float64, levels, learned_bias, in
     )
     starts = [by_hand.start(f, *motion, initial_io) for f, motion in zip(free, twins, strict=True)]
     assert (np.abs(free[:, 2:]) == 0.3).any(), "the bound should be met"
-    np.testing.assert_allclose(fit.losses, errors, rtol=1e-10)
-    np.testing.assert_allclose(fit.network.weights, expected["weights"], rtol=0, atol=1e-10)
-    np.testing.assert_allclose(fit.network.bias, expected["bias"], rtol=0, atol=1e-10)
-    np.testing.assert_allclose(fit.initial_states, starts, rtol=0, atol=1e-10)
+    exact = 1e-6 if schedule == "cosine" else 1e-10  # optax works out the cosine in float32
+    np.testing.assert_allclose(fit.losses, errors, rtol=exact)
+    np.testing.assert_allclose(fit.network.weights, expected["weights"], rtol=0, atol=exact)
+    np.testing.assert_allclose(fit.network.bias, expected["bias"], rtol=0, atol=exact)
+    np.testing.assert_allclose(fit.initial_states, starts, rtol=0, atol=exact)
 
 
 @pytest.mark.parametrize(("initial_io", "penalty"), [("sensed", 0.0), ("zero", 0.01)])
@@ -102,11 +114,52 @@ def test_recognition_equals_plain_descent_by_hand(float64, initial_io, penalty):
 
     bound = np.where((np.arange(net.size) >= 2) & (np.arange(net.size) < 6), 1.2, np.inf)
     for each, motion, begin in zip(found, twins, starts[:, 0], strict=True):
-        state, loss = by_hand.recognition(
+        state, loss, _ = by_hand.recognition(
             arrays, motion, begin, iterations=10, rate=2.0, bound=bound, penalty=penalty
         )
         np.testing.assert_allclose(each.initial_state, state, rtol=0, atol=1e-10)
         assert each.loss == pytest.approx(loss, rel=1e-10)
+
+
+def test_what_first_comes_near_enough_is_chosen_and_stays_there(float64):
+    net, arrays = drawn(3, learned_bias=True, initial_io="sensed")
+    motions, twins = ragged()
+    starts = np.random.default_rng(4).normal(0.0, 2.0, (3, 4, net.size))
+    given = {"iterations": 12, "rate": 2.0, "bound": np.full(net.size, 9.0), "penalty": 0.0}
+    free = [
+        [by_hand.recognition(arrays, motion, begin, **given) for begin in of_motion]
+        for motion, of_motion in zip(twins, starts, strict=True)
+    ]
+    losses = np.array([[loss for _, loss, _ in of_motion] for of_motion in free])
+    begun = np.array(
+        [
+            [by_hand.error_and_gradients(arrays, motion, b, 0.0)[0] for b in of_motion]
+            for motion, of_motion in zip(twins, starts, strict=True)
+        ]
+    )
+    # Of motion 0 all come near enough on the way, of motion 1 one as it begins and another later,
+    # of motion 2 none.
+    enough = np.stack([0.5 * (begun[0] + losses[0]), np.zeros(4), 0.9 * losses[2]])
+    late, early = np.argsort(losses[1])[:2]
+    enough[1, late], enough[1, early] = losses[1, late], 1.01 * begun[1, early]
+
+    rule = recognition_rule("descent", 2.0, 0.0, 12)
+    bound, none = jnp.asarray(given["bound"]), jnp.asarray(0.0)
+    begin, limit = jnp.asarray(starts), jnp.asarray(enough)
+    states, by_start, chosen = descend(net, motions.batch(), begin, bound, rule, none, 12, limit)
+
+    for i, motion in enumerate(twins):
+        expected = [
+            by_hand.recognition(arrays, motion, begin, **given, enough=limit)
+            for begin, limit in zip(starts[i], enough[i], strict=True)
+        ]
+        arrived = [when for *_, when in expected]
+        smallest = [loss for _, loss, _ in expected]
+        first = int(np.argmin(arrived if min(arrived) < np.inf else smallest))
+        np.testing.assert_allclose(by_start[i], smallest, rtol=1e-10)
+        assert chosen[i] == first
+        np.testing.assert_allclose(states[i], expected[first][0], rtol=0, atol=1e-10)
+    assert (chosen[1], by_start[1, late] < by_start[1, early]) == (early, True)
 
 
 @pytest.mark.parametrize("first", [None, np.array([1.5, 4.0])])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from motionese import Channel, Channels, Motions, Training, train
-from motionese.errors import ChannelError, MotionError
+from motionese.errors import ChannelError, MotionError, SettingError
 from motionese.learning import Batch
 from motionese.learning.objective import predictions, squared_errors
 
@@ -181,3 +181,49 @@ def test_a_channel_without_a_range_is_refused():
         Motions.from_arrays([still], NAMES, 10.0, observed=[np.array([[True, False]] * 4)])
     with pytest.raises(ChannelError, match=r"unknown channel 'tlit'; did you mean 'tilt'\?"):
         Motions.from_arrays([still], NAMES, 10.0, ranges={"tlit": (0.0, 5.0)})
+
+
+def test_motions_are_chosen_by_name_and_index_in_the_order_given():
+    motions = two(names=["a", "b"])
+
+    assert motions.chosen(["b", "a"]).names == ("b", "a")
+    assert motions.chosen([1]).lengths == (3,)
+    np.testing.assert_array_equal(motions.chosen(["b", 0]).values[1], motions.values[0])
+    assert motions.chosen(["b"]).channels == motions.channels
+    with pytest.raises(MotionError, match="unknown motion 'c'; there are: a, b"):
+        motions.chosen(["c"])
+    with pytest.raises(MotionError, match="unknown motion 2; there are 2, counted from 0"):
+        motions.chosen([2])
+    with pytest.raises(MotionError, match="no motions chosen"):
+        motions.chosen([])
+
+
+def test_a_table_is_read_in_one_line(tmp_path):
+    path = tmp_path / "demos.csv"
+    path.write_text("episode,shoulder [rad],led\na,0,1\na,1,1\nb,0.5,1\nb,,1\n")
+
+    motions = Motions.read(path, rate_hz=25, exclude=["led"], margin=0.0)
+
+    assert motions.names == ("a", "b")
+    assert tuple(motions.channels) == (Channel("shoulder", "rad", 0.0, 1.0),)
+    assert motions.rate_hz == 25.0
+    assert motions.observed[1].tolist() == [[True], [False]]
+    with pytest.raises(ChannelError, match=r"demos\.csv: channel 'led' is always 1: give its ran"):
+        Motions.read(path, rate_hz=25)
+    with pytest.raises(SettingError, match="unknown setting 'channel'; did you mean 'channels'"):
+        Motions.read(path, rate_hz=25, channel=["shoulder"])
+
+
+@pytest.mark.parametrize("name", ["out.npz", "out.csv"])
+def test_motions_read_as_they_were_written(motions, tmp_path, name):
+    masked = motions.showing(motions.channels.names[:2])
+    masked.write(tmp_path / name)
+    ranges = {c.name: (c.low, c.high) for c in motions.channels}
+    found = Motions.read(tmp_path / name, ranges=ranges)
+
+    assert (found.names, found.channels) == (masked.names, masked.channels)
+    assert found.rate_hz == masked.rate_hz
+    for was, now in zip(masked.observed, found.observed, strict=True):
+        np.testing.assert_array_equal(was, now)
+    for was, now, seen in zip(masked.values, found.values, masked.observed, strict=True):
+        np.testing.assert_array_equal(was[seen], now[seen])

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from motionese import Motions, Recognition, generate, recognise
 from motionese.errors import ChannelError, MotionError, SettingError
 from motionese.learning import Ending, Training, recognise_all
+from motionese.learning.descent import descend
+from motionese.learning.epochs import begin, run_epochs
 from motionese.learning.optimisers import recognition_rule, training_rule
-from motionese.learning.recognise import _descend
-from motionese.learning.train import _begin, _epochs
 
 KEY = jax.random.key(2)
 QUICK = Recognition(iterations=300)
@@ -218,10 +218,10 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     weights_gradient = 2 * (rows - 1) * len(motions) * units**2
     free = np.zeros((3, starts, 17), np.float32)
     rule, none = recognition_rule("adam", 0.1, 0.9, 10), np.float32(0.0)
-    paid = operations(_descend, net, batch, free, bound, rule, none, 10)
-    trained = training_rule(Training(), True)
-    state = _begin(net, batch, None, trained)
-    training = operations(_epochs, state, net, batch, trained, none, bound, None, KEY, 10)
+    paid = operations(descend, net, batch, free, bound, rule, none, 10, None)
+    trained = training_rule(Training(), 10, True)
+    state = begin(net, 3, None, trained)
+    training = operations(run_epochs, state, net, batch, trained, none, bound, None, KEY, 10)
     assert paid < starts * weights_gradient
     assert training > weights_gradient
 

@@ -161,13 +161,15 @@ def test_held_out_motions_are_told_once_a_chunk(network, motions):
         motions,
         epochs=300,
         validation=motions,
-        progress=lambda epoch, loss: told.append((epoch, loss)),
+        progress=told.append,
     )
 
     assert fit.validation_losses.shape == (3,)
     assert 0 < fit.validation_losses[-1] < fit.validation_losses[0]
-    assert [epoch for epoch, _ in told] == [100, 200, 300]
-    assert [loss for _, loss in told] == list(fit.losses[99::100])
+    assert [each.epoch for each in told] == [100, 200, 300]
+    assert [each.loss for each in told] == list(fit.losses[99::100])
+    assert [each.validation_loss for each in told] == list(fit.validation_losses)
+    assert told[-1].closed_loop_error == pytest.approx(fit.share(fit.closed_loop_error), rel=1e-6)
     assert same(fit, train(network, motions, epochs=300))
 
 

@@ -14,11 +14,11 @@ class BodySettings(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     rate_hz: float = Field(default=10.0, gt=0, le=GAZE_HZ)
-    """Control periods a second: what is sensed and commanded, hence the network's steps."""
+    """How often a second is sensed and commanded; hence the network's steps."""
     stiffness: float = Field(default=30.0, ge=15.0, le=80.0)
     """Stiffness [Nm/rad] of each joint's pair of pneumatic actuators; a softer arm is slower."""
     vision: Literal["projection", "rendered"] = "projection"
-    """Where the seen hand comes from: its exact projection, or a blob in a rendered picture."""
+    """The seen hand is its exact projection, or a blob in a rendered picture."""
     pixel_noise: float = Field(default=0.3, ge=0.0, le=5.0)
     """Root mean square [px] of the noise added to each coordinate of a projected hand."""
 

@@ -13,9 +13,9 @@ from distributed import Client, Future, LocalCluster, as_completed, get_worker
 from distributed.scheduler import KilledWorker
 
 from motionese.errors import MotioneseError, StorageError
-from motionese.experiment.one_core import one_core_each
 from motionese.experiment.run import Run, go_through
 from motionese.experiment.settings import Settings
+from motionese.one_core import one_core_each
 
 LOOPS = "loops"
 """The topic under which workers tell of their loops."""

@@ -1,4 +1,4 @@
-"""The command line: `motionese reproduce`, `motionese report`, `motionese presets`.
+"""The command line: the experiment's commands, and below them those for one's own robot.
 
 Everything that takes time to import is imported by the command that needs it, so that help and
 complaints come at once.
@@ -7,27 +7,29 @@ complaints come at once.
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from motionese.errors import MotioneseError, SettingError, unknown
-from motionese.interfaces.interrupt import interruptible
+from motionese.errors import SettingError, unknown
+from motionese.interfaces import data_commands, model_commands
+from motionese.interfaces.plainly import WRONG, plainly
 
 app = typer.Typer(
-    help="Teach a simulated robot in phases, and see whether clear primitives emerge inside.",
+    help="Developmental imitation learning: the experiment, and your own robot's recordings.",
     no_args_is_help=True,
     add_completion=False,
     # The tables of locals in Typer's own tracebacks hide the line that matters.
     pretty_exceptions_enable=False,
 )
-WRONG, INTERRUPTED = 2, 130
-"""Exit statuses."""
-SEVERAL = ("--conditions", "--set")
+EXPERIMENT = "The experiment"
+SEVERAL = (
+    *("--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
+    *("--observed", "--log", "--like", "--start"),
+)
 """Options that may be followed by several values."""
 
 
@@ -68,7 +70,7 @@ def _root(
     """Take what stands before a command."""
 
 
-@app.command()
+@app.command(rich_help_panel=EXPERIMENT)
 def reproduce(
     conditions: Annotated[
         list[str] | None,
@@ -100,7 +102,7 @@ def reproduce(
 
     Stopped or killed at any time, the same command goes on, and ends with the same results.
     """
-    with _plainly("stopped; the same command goes on"):
+    with plainly("stopped; the same command goes on"):
         # Networks this small are fastest on the CPU; read when jax is imported.
         os.environ.setdefault("JAX_PLATFORMS", "cpu")
         from rich.console import Console
@@ -120,10 +122,10 @@ def reproduce(
     _end(too_few, trial=quick)
 
 
-@app.command()
+@app.command(rich_help_panel=EXPERIMENT)
 def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RUN")]) -> None:
     """Write the report of a run folder again, also while its runs go on."""
-    with _plainly("stopped; the report was not written"):
+    with plainly("stopped; the report was not written"):
         from rich.console import Console
 
         from motionese.interfaces.report import report as write
@@ -132,12 +134,12 @@ def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RU
     _end(too_few)
 
 
-@app.command()
+@app.command(rich_help_panel=EXPERIMENT)
 def presets(
     name: Annotated[str | None, typer.Argument(help="The preset to print.")] = None,
 ) -> None:
     """List the presets, or print one to copy and edit."""
-    with _plainly("stopped"):
+    with plainly("stopped"):
         from motionese.experiment.reading import PRESETS, preset_text
 
         if name is None:
@@ -149,18 +151,8 @@ def presets(
             raise SettingError(unknown("preset", name, PRESETS))
 
 
-@contextmanager
-def _plainly(stopped: str) -> Iterator[None]:
-    """Say in one sentence what the user can put right, or that Ctrl-C has stopped the command."""
-    try:
-        with interruptible():
-            yield
-    except MotioneseError as error:
-        typer.echo(f"motionese: {error}", err=True)
-        raise typer.Exit(WRONG) from error
-    except KeyboardInterrupt as error:
-        typer.echo(f"\nmotionese: {stopped}", err=True)
-        raise typer.Exit(INTERRUPTED) from error
+data_commands.add_to(app)
+model_commands.add_to(app)
 
 
 def _end(too_few: str, *, trial: bool = False) -> None:

@@ -1,12 +1,18 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
+from motionese.learning.batch import Batch
+from motionese.learning.fit import Fit
+from motionese.learning.found import Found
 from motionese.learning.generate import activity, generate
-from motionese.learning.motions import Batch, Motions
-from motionese.learning.recognise import Found, recognise, recognise_all
+from motionese.learning.motions import Motions
+from motionese.learning.placed import placed
+from motionese.learning.progress import Progress
+from motionese.learning.recognise import recognise, recognise_all
+from motionese.learning.sequence import generate_sequence
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Status
 from motionese.learning.storage import load, save
-from motionese.learning.train import Fit, train
+from motionese.learning.train import train
 
 __all__ = [
     "Batch",
@@ -14,12 +20,15 @@ __all__ = [
     "Fit",
     "Found",
     "Motions",
+    "Progress",
     "Recognition",
     "Status",
     "Training",
     "activity",
     "generate",
+    "generate_sequence",
     "load",
+    "placed",
     "recognise",
     "recognise_all",
     "save",

@@ -7,10 +7,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy import ndarray
 
-from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
-from motionese.learning.motions import Batch
-from motionese.learning.objective import predictions
 from motionese.network import MTRNN, rollout
 
 
@@ -20,6 +17,7 @@ def generate(
     steps: int,
     *,
     first: Float[ndarray, "*batch D"] | None = None,
+    duration: float = 1.0,
 ) -> Float[ndarray, "*batch T D"]:
     """Generate motions in closed loop.
 
@@ -29,11 +27,14 @@ def generate(
         steps: Rows T of the result.
         first: What is sensed at the first row, in the channels' units: the network's first
             input. Its own y_0 where left out.
+        duration: How many times as long a motion lasts (0.5 to 2), through the time constants;
+            its rows become more or fewer by as much.
 
     Returns:
         The path in the channels' units. Row 0 is y_0, or `first`.
     """
-    paths, _ = _closed_loop(network, initial_state, steps, first)
+    lasting = network if duration == 1.0 else network.lasting(duration)
+    paths, _ = _closed_loop(lasting, initial_state, steps, first)
     return paths
 
 
@@ -83,37 +84,3 @@ def _closed_loop(
 @eqx.filter_jit
 def _outputs(network: MTRNN, initial: Array, sensed: Array, share: Array) -> Array:
     return jax.nn.sigmoid(rollout(network, initial, sensed, share))
-
-
-def channel_errors(
-    predicted: Float[ndarray, "S T D"], batch: Batch, channels: Channels
-) -> Float[ndarray, "S D"]:
-    """Return every motion's root mean squared error in the channels' units.
-
-    A channel that is observed nowhere after the first row has the error NaN: it is not known.
-    """
-    observed = np.asarray(batch.observed)[:, 1:]
-    squared = ((predicted - np.asarray(batch.sensed))[:, 1:] ** 2 * observed).sum(1)
-    counted = observed.sum(1)
-    mean = np.divide(squared, counted, out=np.full(squared.shape, np.nan), where=counted > 0)
-    return np.asarray(np.sqrt(mean) * channels.interval_widths)
-
-
-def predicted(
-    network: MTRNN, batch: Batch, initial: Float[Array | ndarray, "S N"], teacher_forcing: float
-) -> Float[ndarray, "S T D"]:
-    """Predict every row of a batch in the unit interval, from the initial states and row 0 on.
-
-    Args:
-        network: The network.
-        batch: The motions.
-        initial: Initial states of every motion.
-        teacher_forcing: 0 in closed loop, 1 with what was sensed as the input of every step.
-    """
-    share = jnp.asarray(teacher_forcing, network.weights.dtype)
-    return np.asarray(_predicted(network, batch, jnp.asarray(initial), share))
-
-
-@eqx.filter_jit
-def _predicted(network: MTRNN, batch: Batch, initial: Array, share: Array) -> Array:
-    return predictions(network, batch, initial, share)

@@ -6,30 +6,20 @@ the network's input.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Bool, Float
 from numpy import ndarray
 
-from motionese.channels import Channel, Channels
-from motionese.errors import ChannelError, MotionError, unknown
-
-MARGIN = 0.05
-"""How far a range taken from data reaches beyond it, as a share of its width."""
-
-
-class Batch(NamedTuple):
-    """Motions as the network takes them, padded to one length.
-
-    Attributes:
-        sensed: Values in the unit interval; 0.5 where nothing was observed.
-        observed: 1 where a value was observed, 0 where not or where a motion has ended.
-    """
-
-    sensed: Float[Array, "S T D"]
-    observed: Float[Array, "S T D"]
+from motionese.channels import Channels
+from motionese.errors import MotionError, unknown
+from motionese.learning.arrays import channels_of, checked
+from motionese.learning.batch import Batch, padded
+from motionese.recordings import Episode, Recording, choose, prepare
+from motionese.recordings import read as read_recording
+from motionese.recordings import write as write_recording
 
 
 @dataclass(frozen=True)
@@ -81,33 +71,103 @@ class Motions:
             ChannelError: A channel that never changes and has no range given, or a unit or range
                 of a channel that is not there.
         """
-        if not arrays:
-            raise MotionError("no motions given; at least one is needed")
         if not (np.isfinite(rate_hz) and rate_hz > 0):
             raise MotionError(f"rate_hz must be finite and > 0, got {rate_hz}")
-        called = tuple(names) if names is not None else tuple(str(i) for i in range(len(arrays)))
-        values = [np.array(a, dtype=np.float64) for a in arrays]
-        masks = (
-            [np.ones(v.shape, dtype=bool) for v in values]
-            if observed is None
-            else [np.array(m, dtype=bool) for m in observed]
-        )
         labels = channels.names if isinstance(channels, Channels) else tuple(channels)
-        if not len(values) == len(masks) == len(called):
-            raise MotionError(
-                f"{len(values)} motions need as many masks and names, "
-                f"got {len(masks)} and {len(called)}"
-            )
-        for name, value, mask in zip(called, values, masks, strict=True):
-            _check(name, value, mask, labels)
+        values, masks, called = checked(arrays, observed, names, labels)
         if not isinstance(channels, Channels):
-            channels = _channels_of(values, masks, labels, units or {}, ranges or {})
-        return cls(tuple(values), tuple(masks), channels, float(rate_hz), called)
+            channels = channels_of(values, masks, labels, units or {}, ranges or {})
+        return cls(values, masks, channels, float(rate_hz), called)
+
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        *,
+        format: str | None = None,
+        episode: str | None = None,
+        time: str | None = None,
+        **choice: Any,
+    ) -> "Motions":
+        """Read recordings: csv, .npz, LeRobot, EIPL, robomimic, or mcap; a file or a folder.
+
+        Args:
+            path: The file or folder.
+            format: One of `recordings.FORMATS`; found from what is there where left out.
+            episode: The column of a table that names the episode; found where left out.
+            time: The column of a table that holds the time; found where left out.
+            choice: Any of `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`,
+                `trim`, `nan`, `units`, `ranges`, `margin`.
+
+        Raises:
+            RecordingError: Nothing that can be read there, or a rate that is not told.
+            SettingError: A choice that does not exist or is not allowed.
+            MotionError: Values that are not finite, or an episode of fewer than two rows.
+            ChannelError: A channel that does not exist, or that never changes.
+        """
+        chosen = choose(**choice)
+        found = read_recording(path, format, episode=episode, time=time)
+        return cls.from_recording(prepare(found, chosen))
+
+    @classmethod
+    def from_recording(cls, recording: Recording) -> "Motions":
+        """Return the motions of a recording that was prepared."""
+        assert recording.rate_hz is not None
+        return cls.from_arrays(
+            [e.values for e in recording.episodes],
+            recording.channels,
+            recording.rate_hz,
+            observed=[e.observed for e in recording.episodes],
+            units=dict(zip(recording.channels, recording.units, strict=True)),
+            ranges=recording.ranges,
+            names=[e.name for e in recording.episodes],
+        )
+
+    def write(self, path: str | Path, format: str | None = None) -> None:
+        """Write the motions, whole or not at all.
+
+        Args:
+            path: The file or folder to write.
+            format: One of `recordings.FORMATS`; from the suffix of `path` where left out.
+
+        Raises:
+            RecordingError: The format cannot hold them, or `path` cannot be written.
+            SettingError: A format that does not exist, or none given and none told by `path`.
+        """
+        names = self.channels.names
+        episodes = zip(self.names, self.values, self.observed, strict=True)
+        recording = Recording(
+            Path(path),
+            names,
+            tuple(c.unit for c in self.channels),
+            {c.name: (c.low, c.high) for c in self.channels},
+            self.rate_hz,
+            tuple(Episode(n, None, v, m) for n, v, m in episodes),
+            names,
+        )
+        write_recording(path, recording, format)
 
     @property
     def lengths(self) -> tuple[int, ...]:
         """Rows of every motion."""
         return tuple(len(v) for v in self.values)
+
+    def chosen(self, which: Sequence[int | str]) -> "Motions":
+        """Return the motions of these names or indices, in this order.
+
+        Raises:
+            MotionError: A name or index that is not there, or none at all.
+        """
+        rows = [self._row(one) for one in which]
+        if not rows:
+            raise MotionError("no motions chosen; at least one is needed")
+        return Motions(
+            tuple(self.values[i] for i in rows),
+            tuple(self.observed[i] for i in rows),
+            self.channels,
+            self.rate_hz,
+            tuple(self.names[i] for i in rows),
+        )
 
     def showing(self, channels: Sequence[str]) -> "Motions":
         """Return the same motions with only the named channels observed."""
@@ -137,13 +197,11 @@ class Motions:
                 f"{len(self)} motions of up to {max(self.lengths)} rows "
                 f"do not fit into {count} of {rows} rows"
             )
-        sensed = np.full((count, rows, len(self.channels)), 0.5)
-        observed = np.zeros(sensed.shape)
-        for i, (value, mask) in enumerate(zip(self.values, self.observed, strict=True)):
-            scaled = self.channels.to_unit(np.where(mask, value, 0.0))
-            sensed[i, : len(value)] = np.where(mask, scaled, 0.5)
-            observed[i, : len(value)] = mask
-        return Batch(jnp.asarray(sensed, jnp.result_type(float)), jnp.asarray(observed, float))
+        unit = [
+            self.channels.to_unit(np.where(mask, value, 0.0))
+            for value, mask in zip(self.values, self.observed, strict=True)
+        ]
+        return padded(unit, self.observed, rows, count)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -161,50 +219,11 @@ class Motions:
     def __iter__(self) -> Iterator["Motions"]:
         return (self[i] for i in range(len(self)))
 
-
-def _check(name: str, value: ndarray, mask: ndarray, labels: Sequence[str]) -> None:
-    if value.ndim != 2 or value.shape[1] != len(labels):
-        raise MotionError(
-            f"motion '{name}': expected an array [T, {len(labels)}] for the channels "
-            f"{', '.join(labels)}, got shape {value.shape}"
-        )
-    if mask.shape != value.shape:
-        raise MotionError(
-            f"motion '{name}': its mask has shape {mask.shape}, its values {value.shape}"
-        )
-    if len(value) < 2:
-        raise MotionError(f"motion '{name}': at least 2 rows are needed, got {len(value)}")
-    wrong = np.argwhere(mask & ~np.isfinite(value))
-    if len(wrong):
-        row, column = wrong[0]
-        raise MotionError(
-            f"motion '{name}', row {row}, channel '{labels[column]}': "
-            f"values must be finite, got {value[row, column]}; mask what was not observed"
-        )
-
-
-def _channels_of(
-    values: Sequence[ndarray],
-    masks: Sequence[ndarray],
-    labels: Sequence[str],
-    units: Mapping[str, str],
-    ranges: Mapping[str, tuple[float, float]],
-) -> Channels:
-    for name in (*units, *ranges):
-        if name not in labels:
-            raise ChannelError(unknown("channel", name, labels))
-    channels = []
-    for column, name in enumerate(labels):
-        if name in ranges:
-            low, high = ranges[name]
-        else:
-            seen = np.concatenate(
-                [v[m[:, column], column] for v, m in zip(values, masks, strict=True)]
-            )
-            if not len(seen) or seen.min() == seen.max():
-                what = f"is always {seen[0]:g}" if len(seen) else "is never observed"
-                raise ChannelError(f"channel '{name}' {what}: give its range or leave it out")
-            margin = MARGIN * (seen.max() - seen.min())
-            low, high = float(seen.min() - margin), float(seen.max() + margin)
-        channels.append(Channel(name, units.get(name, ""), low, high))
-    return Channels(channels)
+    def _row(self, which: int | str) -> int:
+        if isinstance(which, str):
+            if which not in self.names:
+                raise MotionError(unknown("motion", which, self.names))
+            return self.names.index(which)
+        if not 0 <= which < len(self):
+            raise MotionError(f"unknown motion {which}; there are {len(self)}, counted from 0")
+        return int(which)

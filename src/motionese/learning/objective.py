@@ -4,7 +4,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from motionese.learning.motions import Batch
+from motionese.learning.batch import Batch
 from motionese.network import MTRNN, rollout
 
 

@@ -1,13 +1,27 @@
 """Update rules of training and recognition, from optax."""
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import optax
 
-from motionese.learning.settings import Optimiser, Training
+from motionese.learning.settings import Optimiser, Schedule, Training
 
 SLOWER, SLOWER_FROM = 0.3, 0.7
 """Recognition's rate is multiplied by the first after this share of its iterations."""
+WARM_UP, BEGIN, END = 0.05, 0.1, 0.01
+"""The cosine schedule rises over this share of the epochs; its first and last rate, as shares."""
+
+
+class _Rule(NamedTuple):
+    """Those settings of training that the update rule is made of."""
+
+    optimiser: Optimiser
+    weight_rate: float
+    initial_rate: float
+    schedule: Schedule
+    momentum: float
+    clip: float
 
 
 def update_rule(
@@ -19,36 +33,43 @@ def update_rule(
     return optax.sgd(rate, momentum if name == "momentum" else None)
 
 
+def _schedule(name: Schedule, rate: float, epochs: int) -> float | optax.Schedule:
+    if name == "constant":
+        return rate
+    return optax.warmup_cosine_decay_schedule(
+        BEGIN * rate, rate, round(WARM_UP * epochs), epochs, END * rate
+    )
+
+
 @lru_cache(maxsize=64)
-def _training_rule(
-    name: Optimiser, weights: float, initial: float, momentum: float, clip: float, bias: bool
-) -> optax.GradientTransformation:
+def _training_rule(settings: _Rule, epochs: int, bias: bool) -> optax.GradientTransformation:
     # What is not learned is left out before the clip, whose norm it must not enlarge.
     fixed = {"weights": False, "bias": not bias, "initial": False}
     steps = [optax.masked(optax.set_to_zero(), fixed)]
-    if clip:
-        steps.append(optax.clip_by_global_norm(clip))
+    if settings.clip:
+        steps.append(optax.clip_by_global_norm(settings.clip))
     by_group = {
-        "weights": update_rule(name, weights, momentum),
-        "initial": update_rule(name, initial, momentum),
+        group: update_rule(
+            settings.optimiser, _schedule(settings.schedule, rate, epochs), settings.momentum
+        )
+        for group, rate in (
+            ("weights", settings.weight_rate),
+            ("initial", settings.initial_rate),
+        )
     }
     groups = {"weights": "weights", "bias": "weights", "initial": "initial"}
     return optax.chain(*steps, optax.multi_transform(by_group, groups))
 
 
-def training_rule(settings: Training, learned_bias: bool) -> optax.GradientTransformation:
+def training_rule(
+    settings: Training, epochs: int, learned_bias: bool
+) -> optax.GradientTransformation:
     """Return equations (4) and (5): α for weights and bias, β for initial states, one joint clip.
 
     Equal settings give the same object, so that compiled code is found again.
     """
-    return _training_rule(
-        settings.optimiser,
-        settings.weight_rate,
-        settings.initial_rate,
-        settings.momentum,
-        settings.clip,
-        learned_bias,
-    )
+    rule = _Rule(**{name: getattr(settings, name) for name in _Rule._fields})
+    return _training_rule(rule, epochs if settings.schedule == "cosine" else 0, learned_bias)
 
 
 @lru_cache(maxsize=64)

@@ -1,57 +1,33 @@
 """Recognition: the weights frozen, the initial states of an observed motion found by descent.
 
 Of each motion any channels may be observed at any steps. The descent starts from several initial
-states at once, those given and random ones, and the one that ends with the smallest error is kept.
+states at once: recalled ones of learned motions, those given, and random ones. The one that ends
+with the smallest error is kept, or that which first comes as near as motions were learned.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-import optax
 from jaxtyping import Array, Bool, Float
 from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
 from motionese.learning.carried import carried
-from motionese.learning.generate import channel_errors, predicted
-from motionese.learning.motions import Batch, Motions
-from motionese.learning.objective import initial_potentials, predictions, squared_errors
+from motionese.learning.descent import descend
+from motionese.learning.fit import Fit
+from motionese.learning.found import Found, judged
+from motionese.learning.motions import Motions
 from motionese.learning.optimisers import recognition_rule
+from motionese.learning.recall import Recalled, recalled
 from motionese.learning.settings import Recognition
-from motionese.learning.status import Ending, Status
 from motionese.network import MTRNN
 
 
-@dataclass(frozen=True)
-class Found:
-    """What recognition found for one motion.
-
-    Attributes:
-        initial_state: u_0 of all levels. [N]
-        path: The recognised motion in closed loop, all channels, in their units. [T, D]
-        residual: Root mean squared error of every observed channel in its unit; NaN for a channel
-            that was not observed. [D]
-        error: The residual over the observed channels, as a share of their ranges.
-        loss: Equation (3) over what was observed, and the penalty.
-        start: Which start was the best, the given ones counted first.
-        status: Recognised, not recognised, or diverged.
-    """
-
-    initial_state: Float[ndarray, " N"]
-    path: Float[ndarray, "T D"]
-    residual: Float[ndarray, " D"]
-    error: float
-    loss: float
-    start: int
-    status: Status
-
-
 def recognise(
-    network: MTRNN,
+    model: MTRNN | Fit,
     motion: Motions | Float[ndarray, "T D"],
     *,
     observed: list[str] | None = None,
@@ -63,15 +39,17 @@ def recognise(
     """Find the initial states from which the network generates a motion.
 
     Args:
-        network: A trained network.
+        model: What training left; or a trained network alone, which has no memory of its motions
+            to start from, and can recognise few hidden channels.
         motion: One motion, or its values [T, D] in the channels' units; what is not looked at may
             be anything, NaN included.
         observed: Names of the channels that are looked at; all if left out.
         rows: The stretch of time that is looked at; all if left out. Row 0 stays the time of u_0.
-        starts: Initial states to start from beside the random ones.
+        starts: Initial states to start from beside the recalled and the random ones.
         settings: Iterations, starts, rate, bounds.
         key: JAX random key of the random starts; `jax.random.key(0)` where left out.
     """
+    network = model.network if isinstance(model, Fit) else model
     if not isinstance(motion, Motions):
         if network.channels is None:
             raise ChannelError("the network carries no channels; give the motion as Motions")
@@ -83,7 +61,7 @@ def recognise(
     seen = motion.observed[0] & _looked_at(motion.lengths[0], motion.channels, observed, rows)
     motion = replace(motion, observed=(seen,))
     given = None if starts is None else np.asarray(starts)[None]
-    return recognise_all(network, motion, starts=given, settings=settings, key=key)[0]
+    return recognise_all(model, motion, starts=given, settings=settings, key=key)[0]
 
 
 def _looked_at(
@@ -96,7 +74,7 @@ def _looked_at(
 
 
 def recognise_all(
-    network: MTRNN,
+    model: MTRNN | Fit,
     motions: Motions,
     *,
     starts: Float[ndarray, "S M N"] | None = None,
@@ -107,7 +85,7 @@ def recognise_all(
     """Recognise many motions in one batch, each from its observed values alone.
 
     Args:
-        network: A trained network.
+        model: What training left, or a trained network alone; see `recognise`.
         motions: The motions; their masks say what is looked at.
         starts: Initial states to start from, so many for every motion.
         settings: Iterations, starts, rate, bounds.
@@ -120,9 +98,7 @@ def recognise_all(
             that the network does not have.
     """
     settings = settings or Recognition()
-    network, motions = carried(network, motions)
-    if starts is None and not settings.starts:
-        starts = np.zeros((len(motions), 1, network.size))
+    network, motions = carried(model.network if isinstance(model, Fit) else model, motions)
     if starts is not None and starts.shape[::2] != (len(motions), network.size):
         raise SettingError(
             f"starts must have shape [{len(motions)} motions, any number, {network.size} units], "
@@ -130,26 +106,48 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    free = _starts(network, count, starts, settings, jax.random.key(0) if key is None else key)
-    bound = network.per_unit(settings.bound, jnp.inf)
-    rule = recognition_rule(
-        settings.optimiser, settings.rate, settings.momentum, settings.iterations
+    memory = recalled(model, batch) if isinstance(model, Fit) else None
+    if starts is None and memory is None and not settings.starts:
+        starts = np.zeros((len(motions), 1, network.size))
+    free = _starts(network, count, starts, memory, settings, key)
+    states, losses, chosen = descend(
+        network,
+        batch,
+        free,
+        network.per_unit(settings.bound, jnp.inf),
+        recognition_rule(settings.optimiser, settings.rate, settings.momentum, settings.iterations),
+        jnp.asarray(settings.penalty),
+        settings.iterations,
+        None if memory is None else _enough(memory, free.shape[1]),
     )
-    states, losses = _descend(
-        network, batch, free, bound, rule, jnp.asarray(settings.penalty), settings.iterations
+    return judged(
+        network,
+        motions,
+        batch,
+        np.asarray(states),
+        np.asarray(losses),
+        np.asarray(chosen),
+        settings,
     )
-    return _judged(network, motions, batch, np.asarray(states), np.asarray(losses), settings)
+
+
+def _enough(memory: Recalled, starts: int) -> Float[Array, "S M"]:
+    """Return for every start, the recalled ones first, the loss that is small enough."""
+    others = np.repeat(memory.typical[:, None], starts - memory.enough.shape[1], axis=1)
+    return jnp.asarray(np.hstack([memory.enough, others]), float)
 
 
 def _starts(
     network: MTRNN,
     count: int,
     given: Float[ndarray, "G H N"] | None,
+    memory: Recalled | None,
     settings: Recognition,
-    key: Array,
+    key: Array | None,
 ) -> Float[Array, "S M N"]:
     dtype = network.weights.dtype
-    parts = []
+    key = jax.random.key(0) if key is None else key
+    parts = [] if memory is None else [jnp.asarray(memory.starts, dtype)]
     if given is not None:
         idle = count - len(given)
         parts.append(jnp.pad(jnp.asarray(given, dtype), ((0, idle), (0, 0), (0, 0))))
@@ -160,90 +158,3 @@ def _starts(
         drawn = jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
         parts.append(settings.spread * drawn)
     return jnp.concatenate(parts, axis=1)
-
-
-_Descent = tuple[Array, optax.OptState, Array, Array]
-"""States, the update rule's memory, the best states so far and their loss."""
-
-
-@eqx.filter_jit
-def _descend(
-    network: MTRNN,
-    batch: Batch,
-    free: Float[Array, "S M N"],
-    bound: Float[Array, " N"],
-    rule: optax.GradientTransformation,
-    penalty: Float[Array, ""],
-    iterations: int,
-) -> tuple[Float[Array, "S N"], Float[Array, "S M"]]:
-    """Descend from every start; return the best start's states and every start's loss.
-
-    Only the gradient of the initial states is asked for, so that of the weights is never computed.
-    """
-    motions, starts, units = free.shape
-    repeated = Batch(*(jnp.repeat(a, starts, axis=0) for a in batch))
-
-    def losses(states: Array) -> Array:
-        predicted = predictions(network, repeated, states, 0.0)
-        context = states[:, network.io_size :]
-        return squared_errors(predicted, repeated) + penalty * (context**2).sum(-1)
-
-    def total(states: Array) -> tuple[Array, Array]:
-        each = losses(states)
-        return each.sum(), each
-
-    def iteration(carry: _Descent, _: None) -> tuple[_Descent, None]:
-        states, memory, best, best_loss = carry
-        (_, each), slope = jax.value_and_grad(total, has_aux=True)(states)
-        better = each < best_loss
-        best = jnp.where(better[:, None], states, best)
-        updates, memory = rule.update(slope, memory)
-        states = jnp.clip(optax.apply_updates(states, updates), -bound, bound)
-        return (states, memory, best, jnp.where(better, each, best_loss)), None
-
-    flat = jnp.clip(free.reshape(-1, units), -bound, bound)
-    begin = (flat, rule.init(flat), flat, jnp.full(len(flat), jnp.inf, flat.dtype))
-    (states, _, best, best_loss), _ = jax.lax.scan(iteration, begin, None, length=iterations)
-    last = losses(states)
-    best = jnp.where((last < best_loss)[:, None], states, best).reshape(motions, starts, units)
-    by_start = jnp.fmin(last, best_loss).reshape(motions, starts)
-    chosen = jnp.take_along_axis(best, by_start.argmin(1)[:, None, None], axis=1)[:, 0]
-    return initial_potentials(network, batch, chosen), by_start
-
-
-def _judged(
-    network: MTRNN,
-    motions: Motions,
-    batch: Batch,
-    states: Float[ndarray, "S N"],
-    losses: Float[ndarray, "S M"],
-    settings: Recognition,
-) -> list[Found]:
-    paths = predicted(network, batch, states, 0.0)
-    residuals = channel_errors(paths, batch, motions.channels)
-    ranges = np.array([c.high - c.low for c in motions.channels])
-    found = []
-    for i, length in enumerate(motions.lengths):
-        shares = residuals[i][~np.isnan(residuals[i])] / ranges[~np.isnan(residuals[i])]
-        worst = float(shares.max()) if len(shares) else np.nan
-        found.append(
-            Found(
-                initial_state=states[i],
-                path=motions.channels.from_unit(paths[i, :length]),
-                residual=residuals[i],
-                error=float(np.sqrt((shares**2).mean())) if len(shares) else np.nan,
-                loss=float(losses[i].min()),
-                start=int(losses[i].argmin()),
-                status=_verdict(float(losses[i].min()), worst, settings),
-            )
-        )
-    return found
-
-
-def _verdict(loss: float, worst: float, settings: Recognition) -> Status:
-    if not np.isfinite(loss):
-        return Status(Ending.DIVERGED, "no start kept a finite error")
-    if np.isnan(worst):
-        return Status(Ending.NOT_RECOGNISED, "nothing was observed after the first row")
-    told = f"largest residual {worst:.1%} of a channel's range, allowed {settings.tolerance:.1%}"
-    return Status(Ending.RECOGNISED if worst <= settings.tolerance else Ending.NOT_RECOGNISED, told)

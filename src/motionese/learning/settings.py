@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 Optimiser = Literal["descent", "momentum", "adam"]
+Schedule = Literal["constant", "cosine"]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 ByLevel = dict[str, NotNegative]
 Bound = NotNegative | ByLevel
@@ -15,33 +16,42 @@ Rate = Annotated[float, Field(ge=0, le=100)]
 class Training(BaseModel):
     """How weights and initial states are trained (equations (3)–(5)).
 
+    The defaults suit recordings of any length and number; the imitation loop has a regime of its
+    own, in `experiment/presets/`.
+
     Attributes:
         epochs: Updates, each with the gradient of all motions.
         optimiser: Plain gradient descent (the paper), with momentum, or Adam.
         weight_rate: α of equation (4), for the weights and the bias.
         initial_rate: β of equation (5), for every motion's own initial states.
+        schedule: Rates that stay, or that rise over the first 5 % of the epochs and then fall
+            along half a cosine to a hundredth.
         momentum: Of `optimiser = "momentum"`.
-        clip: Largest joint norm of the gradient of weights and initial states; 0 for none.
+        clip: Largest joint norm of the gradient of weights and initial states; 0 for none. With
+            Adam it holds back the few epochs in which gradients explode: without it, rates must
+            be ten times smaller.
         teacher_forcing: Share of the sensed value in an input, the rest being the network's own
             prediction: 1 teacher forcing, 0 closed loop.
         bound: Largest |u_0| of the initial states after every update, for all context levels or
             by level. Large ones that decay are used as timers and run out.
         noise: Standard deviation of the noise on a level's potentials at every step; none if not
             named.
-        patience: Stop when the loss has fallen by less than `tolerance` over so many epochs;
-            0 to train through all epochs.
+        patience: Stop when the loss, of the held-out motions where there are any, has fallen by
+            less than `tolerance` over so many epochs, and keep what was best for the held-out
+            ones; 0 to train through all epochs.
         tolerance: See `patience`; a share of the loss.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    epochs: int = Field(default=2000, ge=1)
-    optimiser: Optimiser = "momentum"
-    weight_rate: Rate = 0.01
-    initial_rate: Rate = 0.1
+    epochs: int = Field(default=3000, ge=1)
+    optimiser: Optimiser = "adam"
+    weight_rate: Rate = 0.05
+    initial_rate: Rate = 0.3
+    schedule: Schedule = "cosine"
     momentum: float = Field(default=0.9, ge=0, lt=1)
     clip: float = Field(default=1.0, ge=0)
-    teacher_forcing: float = Field(default=0.3, ge=0, le=1)
+    teacher_forcing: float = Field(default=0.05, ge=0, le=1)
     bound: Bound = 5.0
     noise: ByLevel = {}
     patience: int = Field(default=0, ge=0)
@@ -52,7 +62,7 @@ class Recognition(BaseModel):
     """How the initial states of an observed motion are found, the weights frozen.
 
     Attributes:
-        iterations: Updates of the initial states.
+        iterations: Updates of the initial states, at most.
         starts: Random starts beside those that are given.
         spread: Standard deviation of the random starts.
         optimiser: Plain gradient descent, with momentum, or Adam.

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from motionese.errors import StorageError, unknown
+from motionese.learning.fit import Fit
 from motionese.learning.status import Ending, Status
-from motionese.learning.train import Fit
 from motionese.network import read_network, write_network
 
 ARRAYS = (
@@ -15,14 +15,18 @@ ARRAYS = (
     "validation_losses",
     "teacher_forced_error",
     "closed_loop_error",
+    "validation_error",
 )
-FACTS = ("names", "status", "sentence")
+FACTS = ("names", "lengths", "rate_hz", "validation_names", "status", "sentence")
 
 
 def save(path: str | Path, fit: Fit) -> None:
     """Write a fit to one safetensors file, whole or not at all."""
     facts = {
         "names": list(fit.names),
+        "lengths": list(fit.lengths),
+        "rate_hz": fit.rate_hz,
+        "validation_names": list(fit.validation_names),
         "status": fit.status.ending.value,
         "sentence": fit.status.sentence,
     }
@@ -49,6 +53,9 @@ def load(path: str | Path) -> Fit:
     return Fit(
         network=network,
         names=tuple(facts["names"]),
+        lengths=tuple(facts["lengths"]),
+        rate_hz=float(facts["rate_hz"]),
+        validation_names=tuple(facts["validation_names"]),
         status=Status(Ending(facts["status"]), facts["sentence"]),
         **{name: arrays[name] for name in ARRAYS},
     )

@@ -17,7 +17,7 @@ def grow(
     *,
     key: Array,
     influence: float = 0.25,
-    gain: float = 4.0,
+    gain: float = 2.0,
     scale: Scale = "fan_in",
 ) -> MTRNN:
     """Open a further level above a network; every weight there was is kept.

@@ -7,12 +7,14 @@ from typing import Literal, get_args
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
 from motionese.network.levels import Level, named
 from motionese.network.wiring import Scale, draw_weights, wiring
+from motionese.time_constants import scaled_tau
 
 InitialIO = Literal["sensed", "zero"]
 
@@ -44,7 +46,7 @@ class MTRNN(eqx.Module):
         levels: Sequence[Level],
         *,
         key: Array,
-        gain: float = 4.0,
+        gain: float = 2.0,
         scale: Scale = "fan_in",
         learned_bias: bool = True,
         initial_io: InitialIO = "sensed",
@@ -119,6 +121,13 @@ class MTRNN(eqx.Module):
         )
         other: MTRNN = eqx.tree_at(
             lambda n: (n.weights, n.bias, n.tau), drawn, (self.weights, self.bias, self.tau)
+        )
+        return other
+
+    def lasting(self, scale: float) -> "MTRNN":
+        """Return the same network, its motions lasting `scale` times as long (0.5 to 2)."""
+        other: MTRNN = eqx.tree_at(
+            lambda n: n.tau, self, jnp.asarray(scaled_tau(np.asarray(self.tau), scale))
         )
         return other
 

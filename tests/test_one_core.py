@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from motionese.experiment.one_core import cache_folder, one_core, one_core_each
+from motionese.one_core import cache_folder, one_core, one_core_each
 
 VARIABLES = ("XLA_FLAGS", "JAX_PLATFORMS", "JAX_COMPILATION_CACHE_DIR", "OMP_NUM_THREADS")
 

@@ -1,0 +1,25 @@
+"""Out of motionese: a model's step as ONNX, motions in the formats of others."""
+
+from pathlib import Path
+
+from rich.console import Console
+
+from motionese.interfaces.importing import told
+from motionese.interfaces.onnx_step import export_onnx
+from motionese.learning import Motions, load
+
+
+def export_model(console: Console, model: Path, out: Path) -> None:
+    """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
+    difference = export_onnx(out, load(model))
+    console.print(
+        f"{out}: one step (x, u → y, u_next); "
+        f"differs from the network by at most {difference:.1e}, allowed 1e-06"
+    )
+
+
+def export_data(console: Console, source: Path, out: Path, to: str | None) -> None:
+    """Write motions in another format, and tell what was written."""
+    motions = Motions.read(source)
+    motions.write(out, to)
+    console.print(f"{out}: {told(motions)}")

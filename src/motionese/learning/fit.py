@@ -1,0 +1,59 @@
+"""What training leaves: a network, the initial states of its motions, and how good they are."""
+
+from dataclasses import dataclass
+
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.errors import SettingError, unknown
+from motionese.learning.accuracy import share_of_range
+from motionese.learning.status import Status
+from motionese.network import MTRNN
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What training leaves.
+
+    Attributes:
+        network: The trained network; it carries the motions' channels.
+        initial_states: u_0 of every motion, all levels; IO as the first row was sensed. [S, N]
+        names: The motions' names.
+        lengths: The motions' rows.
+        rate_hz: Rows per second [Hz].
+        losses: Equation (3) per epoch, summed over motions, before that epoch's update. [E]
+        validation_losses: The same of the held-out motions, recognised after every chunk of
+            epochs; empty without any. [V]
+        teacher_forced_error: Root mean squared error of every motion with what was sensed as
+            the input of every step, each channel in its unit. [S, D]
+        closed_loop_error: Root mean squared error of every motion in closed loop, each channel in
+            its unit. [S, D]
+        validation_names: The held-out motions' names.
+        validation_error: `closed_loop_error` of the held-out motions, recognised from all that
+            was observed of them. [H, D]
+        status: How training ended.
+    """
+
+    network: MTRNN
+    initial_states: Float[ndarray, "S N"]
+    names: tuple[str, ...]
+    lengths: tuple[int, ...]
+    rate_hz: float
+    losses: Float[ndarray, " E"]
+    validation_losses: Float[ndarray, " V"]
+    teacher_forced_error: Float[ndarray, "S D"]
+    closed_loop_error: Float[ndarray, "S D"]
+    validation_names: tuple[str, ...]
+    validation_error: Float[ndarray, "H D"]
+    status: Status
+
+    def index(self, name: str) -> int:
+        """Return which motion has this name; `SettingError` if none has."""
+        if name not in self.names:
+            raise SettingError(unknown("motion", name, self.names))
+        return self.names.index(name)
+
+    def share(self, errors: Float[ndarray, "*batch D"]) -> float:
+        """Return errors in the channels' units as one share of the channels' ranges."""
+        assert self.network.channels is not None, "a trained network carries channels"
+        return share_of_range(errors, self.network.channels)

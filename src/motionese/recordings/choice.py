@@ -1,0 +1,71 @@
+"""What the user chooses about a recording, checked where it is given."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+
+from motionese.errors import SettingError, unknown
+
+MARGIN = 0.05
+"""How far a range taken from data reaches beyond it, as a share of its width."""
+
+
+def _wide(limits: tuple[float, float]) -> tuple[float, float]:
+    if not limits[0] < limits[1]:
+        raise ValueError(f"a range needs low < high, got {limits[0]:g} to {limits[1]:g}")
+    return limits
+
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Rate = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
+Range = Annotated[tuple[Finite, Finite], AfterValidator(_wide)]
+
+
+class Choice(BaseModel):
+    """Which channels of a recording are taken, and how they are made ready.
+
+    A channel is chosen by its name or by a pattern such as "Head*" (`*`, `?`, `[abc]`).
+
+    Attributes:
+        channels: Names or patterns, in the order wanted; the recording's usual ones for None.
+        exclude: Names or patterns of channels to leave out.
+        rate_hz: Rows per second [Hz] at which it was recorded, where the file does not tell.
+        resample_hz: Rows per second [Hz] to resample to; none for None.
+        trim: Rows at both ends are cut while no channel has moved by more than this share of
+            its range; 0 for none.
+        nan: Whether a NaN among the values is refused or taken as a gap.
+        units: Units by name or pattern.
+        ranges: Ranges (low, high) by name or pattern; else what the file tells, else the data's.
+        margin: How far a range taken from the data reaches beyond it, as a share of its width.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    channels: tuple[str, ...] | None = None
+    exclude: tuple[str, ...] = ()
+    rate_hz: Rate | None = None
+    resample_hz: Rate | None = None
+    trim: float = Field(default=0.0, ge=0, lt=1)
+    nan: Literal["refuse", "gap"] = "refuse"
+    units: Mapping[str, str] = {}
+    ranges: Mapping[str, Range] = {}
+    margin: float = Field(default=MARGIN, ge=0, le=10)
+
+
+def choose(**given: Any) -> Choice:
+    """Return the choice of these settings, those that are None left at their defaults.
+
+    Raises:
+        SettingError: A setting that does not exist, or a value that is not allowed.
+    """
+    try:
+        return Choice(**{name: value for name, value in given.items() if value is not None})
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        if first["type"] == "extra_forbidden":
+            raise SettingError(unknown("setting", name, Choice.model_fields)) from error
+        what = first["msg"].removeprefix("Value error, ")
+        what = what[:1].lower() + what[1:]
+        raise SettingError(f"setting {name} = {first['input']!r}: {what}") from error

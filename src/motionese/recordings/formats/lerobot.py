@@ -1,0 +1,168 @@
+"""LeRobotDataset v3.0 and v2.1, read with pyarrow alone: no lerobot, no video decoded."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float, Int
+from numpy import ndarray
+
+from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.even_rows import times_unless_even
+from motionese.recordings.formats.lerobot_features import (
+    ACTION,
+    STATE,
+    Feature,
+    Info,
+    features_of,
+    read_info,
+)
+from motionese.recordings.formats.lerobot_writing import write
+from motionese.recordings.recording import Episode, Recording
+
+__all__ = ["read", "write"]
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """All rows of the dataset, sorted by episode and frame."""
+
+    values: Float[ndarray, "N D"]
+    episode: Int[ndarray, " N"]
+    frame: Int[ndarray, " N"]
+    times: Float[ndarray, " N"]
+
+
+def read(path: Path) -> Recording:
+    """Read the floating-point features of a LeRobotDataset; images and videos are left alone.
+
+    Channels are named as in `lerobot_features.features_of`. Those of `observation.state` are
+    usual; of `action` where there is no state; else all.
+
+    Raises:
+        RecordingError: Not such a folder, another version, files missing, cut short, or that do
+            not add up.
+        MissingPackageError: pyarrow is not installed.
+    """
+    info = read_info(path)
+    features = features_of(info)
+    if not features:
+        raise RecordingError(
+            f"{path}: no feature of dtype float32 or float64 and shape [n]; "
+            f"there are: {', '.join(info.features) or 'none'}"
+        )
+    rows = _read_rows(path, features)
+    _check_totals(path, info, rows)
+    by_key = {f.key: f.channels for f in features}
+    channels = tuple(name for f in features for name in f.channels)
+    return Recording(
+        source=path,
+        channels=channels,
+        units=tuple(unit for f in features for unit in f.units),
+        ranges={},
+        rate_hz=info.fps,
+        episodes=tuple(_episodes(path, info, rows)),
+        usual=by_key.get(STATE) or by_key.get(ACTION) or channels,
+    )
+
+
+def _read_rows(path: Path, features: tuple[Feature, ...]) -> _Rows:
+    files = sorted((path / "data").glob("*/*.parquet"))
+    if not files:
+        raise RecordingError(f"{path}: no data/chunk-…/*.parquet; is the download complete?")
+    widths = {f.key: len(f.channels) for f in features}
+    widths.update(episode_index=1, frame_index=1, timestamp=1)
+    parts = []
+    for file in files:
+        table = _table(file, list(widths))
+        parts.append({key: _matrix(file, table, key, width) for key, width in widths.items()})
+    whole = {key: np.concatenate([part[key] for part in parts]) for key in widths}
+    values = np.concatenate([whole[f.key] for f in features], axis=1)
+    episode, frame = (_integers(path, key, whole[key]) for key in ("episode_index", "frame_index"))
+    order = np.lexsort((frame, episode))
+    return _Rows(values[order], episode[order], frame[order], whole["timestamp"][order, 0])
+
+
+def _table(file: Path, columns: list[str]) -> Any:
+    """Return these columns of a parquet file and no others, which may be pictures."""
+    try:
+        import pyarrow  # noqa: PLC0415
+        from pyarrow.parquet import ParquetFile  # noqa: PLC0415
+    except ImportError as error:
+        raise needs("pyarrow", "lerobot", "reading a LeRobotDataset") from error
+    try:
+        with ParquetFile(file) as parquet:
+            missing = [key for key in columns if key not in parquet.schema_arrow.names]
+            if missing:
+                raise RecordingError(f"{file}: has no column '{missing[0]}'")
+            return parquet.read(columns=columns)
+    except (pyarrow.ArrowException, OSError, ValueError, MemoryError) as error:
+        why = " ".join(str(error).split())
+        raise RecordingError(
+            f"{file}: not a parquet file, cut short, or damaged ({why})"
+        ) from error
+
+
+def _matrix(file: Path, table: Any, key: str, width: int) -> Float[ndarray, "N n"]:
+    """Return a column of numbers, or of lists of `width` numbers, as an array."""
+    from pyarrow import compute, types  # noqa: PLC0415
+
+    def is_number(kind: Any) -> bool:
+        return bool(types.is_floating(kind) or types.is_integer(kind))
+
+    cells = table.column(key).combine_chunks()
+    nulls, lengths = cells.null_count, [1]
+    if getattr(cells.type, "value_type", None) is not None and not is_number(cells.type):
+        lengths = compute.unique(compute.list_value_length(cells)).drop_null().to_pylist()
+        cells = cells.flatten()
+        nulls += cells.null_count
+    if not is_number(cells.type):
+        raise RecordingError(f"{file}: column '{key}' holds {cells.type}, not numbers")
+    if nulls:
+        raise RecordingError(f"{file}: column '{key}' has {nulls} cells without a value (null)")
+    if lengths not in ([], [width]):
+        raise RecordingError(
+            f"{file}: column '{key}' has {lengths} numbers in a row; info.json says {width}"
+        )
+    numbers = np.asarray(cells.to_numpy(zero_copy_only=False), np.float64)
+    return numbers.reshape(-1, width)
+
+
+def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarray, " N"]:
+    wrong = np.flatnonzero(~(np.abs(column[:, 0]) < 2**53))
+    if len(wrong):
+        raise RecordingError(f"{path}: column '{key}' holds {column[wrong[0], 0]:g}, no row number")
+    return np.asarray(column[:, 0], dtype=np.int64)
+
+
+def _check_totals(path: Path, info: Info, rows: _Rows) -> None:
+    found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
+    told = {"total_frames": info.total_frames, "total_episodes": info.total_episodes}
+    for key, count in found.items():
+        if told[key] not in {None, count}:
+            raise RecordingError(
+                f"{path}: meta/info.json tells {told[key]} {key}, the files in data hold {count}; "
+                f"is the download complete?"
+            )
+
+
+def _episodes(path: Path, info: Info, rows: _Rows) -> Iterator[Episode]:
+    indices, starts = np.unique(rows.episode, return_index=True)
+    names = dict(enumerate(info.episode_names))
+    for index, start, end in zip(indices, starts, [*starts[1:], len(rows.episode)], strict=True):
+        where = f"{path}: episode {index}"
+        wrong = np.flatnonzero(rows.frame[start:end] != np.arange(end - start))
+        if len(wrong):
+            raise RecordingError(
+                f"{where}: frame {wrong[0]} is missing; "
+                f"found frame_index {rows.frame[start + wrong[0]]} in its place"
+            )
+        values = rows.values[start:end]
+        yield Episode(
+            name=names.get(index, f"episode_{index:06d}"),
+            times=times_unless_even(rows.times[start:end], info.fps),
+            values=values,
+            observed=np.ones(values.shape, dtype=bool),
+        )

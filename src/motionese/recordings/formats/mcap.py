@@ -1,0 +1,175 @@
+"""MCAP with JSON messages: one file an episode, a folder of files a recording.
+
+Channels are named TOPIC.a.b by where the number stands in the message (see `mcap_numbers`).
+Messages in other encodings are left alone. A topic that we wrote carries in its MCAP channel's
+metadata what JSON cannot say (names, units, rate, the episode's name); its channels keep their
+plain names.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.even_rows import times_unless_even
+from motionese.recordings.formats.mcap_numbers import is_bookkeeping, numbers
+from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
+from motionese.recordings.formats.mcap_writing import write
+from motionese.recordings.natural_order import natural
+from motionese.recordings.rate import rate_of_times
+from motionese.recordings.recording import Episode, Recording
+
+__all__ = ["read", "write"]
+
+
+@dataclass
+class _Tape:
+    """What one file holds: numbers by channel and log time [ns]."""
+
+    file: Path
+    told: Told | None = None
+    samples: dict[str, dict[int, float]] = field(default_factory=dict)
+    stamps: dict[str, set[int]] = field(default_factory=dict)
+    """Log times [ns] of the messages of every topic that holds numbers."""
+    bookkeeping: set[str] = field(default_factory=set)
+    encodings: set[str] = field(default_factory=set)
+
+
+def read(path: Path) -> Recording:
+    """Read one .mcap file as one episode, or a folder of them, in natural order.
+
+    Rows are the times at which any of the topics spoke, counted from the file's first message;
+    a channel is observed where its own topic did. The rate is that of the topic with the most
+    messages. All channels but headers, stamps and sequence numbers are usual.
+
+    Raises:
+        RecordingError: Not an MCAP file, cut short, damaged, or without numbers in JSON.
+        MissingPackageError: mcap is not installed.
+    """
+    files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda f: natural(f.name))
+    if not files:
+        raise RecordingError(f"{path}: holds no .mcap files")
+    tapes = [_read_tape(file) for file in files]
+    named = [name for t in tapes for name in (*(t.told.channels if t.told else ()), *t.samples)]
+    channels = tuple(dict.fromkeys(named))
+    units = {name: unit for t in tapes if t.told for name, unit in t.told.named_units()}
+    bookkeeping = set.union(*(t.bookkeeping for t in tapes))
+    return Recording(
+        source=path,
+        channels=channels,
+        units=tuple(units.get(name, "") for name in channels),
+        ranges={},
+        rate_hz=_rate(tapes),
+        episodes=tuple(_episode(tape, channels) for tape in tapes),
+        usual=tuple(n for n in channels if n not in bookkeeping) or channels,
+    )
+
+
+def _read_tape(file: Path) -> _Tape:
+    tape = _Tape(file)
+    topics: dict[int, Any] = {}
+    for record in _records(file):
+        if hasattr(record, "message_encoding"):
+            topics[record.id] = record
+            tape.encodings.add(record.message_encoding)
+            if METADATA_KEY in record.metadata:
+                tape.told = Told.read(file, record.metadata[METADATA_KEY])
+        elif hasattr(record, "channel_id"):
+            topic = topics.get(record.channel_id)
+            if topic is None or topic.message_encoding != "json":
+                continue
+            try:
+                found = list(numbers(json.loads(record.data)))
+            except (ValueError, OverflowError, RecursionError) as error:
+                raise RecordingError(
+                    f"{file}: topic {topic.topic}: the message at {record.log_time} ns is not "
+                    f"JSON ({error})"
+                ) from error
+            _add(tape, topic, record.log_time, found)
+    if not tape.stamps:
+        raise RecordingError(
+            f"{file}: no numbers in messages encoded as 'json'; "
+            f"encodings in it: {', '.join(sorted(tape.encodings)) or 'none'}"
+        )
+    return tape
+
+
+def _records(file: Path) -> Iterator[Any]:
+    """Yield channels and messages in the file's order."""
+    try:
+        from mcap.records import Channel, Message  # noqa: PLC0415
+        from mcap.stream_reader import StreamReader  # noqa: PLC0415
+    except ImportError as error:
+        raise needs("mcap", "mcap", "reading MCAP") from error
+    count = 0
+    try:
+        with file.open("rb") as stream:
+            size = file.stat().st_size
+            # No record is longer than its file: a damaged length must not fill the memory.
+            reader = StreamReader(stream, validate_crcs=True, record_size_limit=size)
+            for record in reader.records:
+                if isinstance(record, Channel | Message):
+                    count += isinstance(record, Message)
+                    yield record
+    except Exception as error:
+        # What the parser and its decompressors raise depends on which byte is damaged.
+        raise RecordingError(
+            f"{file}: not an MCAP file, cut short, or damaged after {count} messages "
+            f"({str(error) or type(error).__name__}); `mcap recover` saves what is whole"
+        ) from error
+
+
+def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) -> None:
+    ours = METADATA_KEY in topic.metadata
+    if found or ours:
+        tape.stamps.setdefault(topic.topic, set()).add(stamp)
+    for path, number in found:
+        name = path.removeprefix(".") if ours else topic.topic + path
+        if name not in tape.samples:
+            tape.samples[name] = {}
+            if not ours and is_bookkeeping(path):
+                tape.bookkeeping.add(name)
+        tape.samples[name][stamp] = number
+
+
+def _rate(tapes: list[_Tape]) -> float | None:
+    """Return the rate [Hz] that all files tell, or that of the topic with the most messages."""
+    told = {t.told.rate_hz if t.told else None for t in tapes}
+    if len(told) == 1 and None not in told:
+        return told.pop()
+    count = Counter[str]()
+    for tape in tapes:
+        count.update({topic: len(stamps) for topic, stamps in tape.stamps.items()})
+    (densest, _), *_ = count.most_common(1)
+    return rate_of_times([_since_first(sorted(t.stamps.get(densest, ()))) for t in tapes])
+
+
+def _since_first(stamps: list[int]) -> Float[ndarray, " T"]:
+    """Return log times [ns] as times [s] from the first; exact before they become floats."""
+    return np.array([stamp - stamps[0] for stamp in stamps], dtype=np.float64) / 1e9
+
+
+def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
+    stamps = sorted(set.union(*tape.stamps.values()))
+    row_at = {stamp: row for row, stamp in enumerate(stamps)}
+    values = np.zeros((len(stamps), len(channels)))
+    observed = np.zeros(values.shape, dtype=bool)
+    for column, name in enumerate(channels):
+        samples = tape.samples.get(name, {})
+        rows = [row_at[stamp] for stamp in samples]
+        values[rows, column] = list(samples.values())
+        observed[rows, column] = True
+    rate_told = tape.told.rate_hz if tape.told else None
+    return Episode(
+        name=tape.told.episode if tape.told else tape.file.stem,
+        times=times_unless_even(_since_first(stamps), rate_told),
+        values=values,
+        observed=observed,
+    )

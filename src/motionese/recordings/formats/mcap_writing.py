@@ -1,0 +1,106 @@
+"""Writing MCAP with JSON messages, one file an episode, for Foxglove and whatever reads JSON."""
+
+import json
+import re
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Int
+from numpy import ndarray
+
+from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
+from motionese.recordings.formats.written import new_folder, write_file
+from motionese.recordings.recording import Episode, Recording
+
+TOPIC = "/motion"
+
+
+def write(path: Path, recording: Recording) -> None:
+    """Write a new folder of files, or one file where `path` ends in .mcap.
+
+    Every row is a message {"NAME": value, …} on the topic /motion at its time, counted from the
+    first; what was not observed is left out of it.
+
+    Raises:
+        RecordingError: Several episodes for one file, an empty one, no known times, values that
+            JSON cannot hold, or a folder that exists.
+        MissingPackageError: mcap is not installed.
+    """
+    if path.suffix.lower() != ".mcap":
+        contents = [_content(path, episode, recording) for episode in recording.episodes]
+        with new_folder(path) as folder:
+            for i, (episode, content) in enumerate(zip(recording.episodes, contents, strict=True)):
+                # The number keeps the episodes' order, the name is for people.
+                name = re.sub(r"[^\w.-]+", "_", episode.name)[:60]
+                (folder / f"{i:04d}_{name}.mcap").write_bytes(content)
+        return
+    if len(recording.episodes) != 1:
+        raise RecordingError(
+            f"{path}: an MCAP file holds one episode, the recording has "
+            f"{len(recording.episodes)}: give the name of a folder, without .mcap"
+        )
+    write_file(path, _content(path, recording.episodes[0], recording))
+
+
+def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
+    try:
+        from mcap.writer import Writer  # noqa: PLC0415
+    except ImportError as error:
+        raise needs("mcap", "mcap", "writing MCAP") from error
+    _check_finite(path, episode, recording.channels)
+    stamps = _stamps(path, episode, recording.rate_hz)
+    properties = {
+        name: {"type": "number", **({"description": f"[{unit}]"} if unit else {})}
+        for name, unit in zip(recording.channels, recording.units, strict=True)
+    }
+    schema = json.dumps({"type": "object", "properties": properties})
+    told = Told(
+        episode=episode.name,
+        channels=recording.channels,
+        units=recording.units,
+        rate_hz=recording.rate_hz,
+    )
+    content = BytesIO()
+    writer = Writer(content)
+    writer.start(profile="", library="motionese")
+    topic = writer.register_channel(
+        topic=TOPIC,
+        message_encoding="json",
+        schema_id=writer.register_schema("motion", "jsonschema", schema.encode()),
+        metadata={METADATA_KEY: told.model_dump_json()},
+    )
+    for row, stamp in enumerate(stamps.tolist()):
+        cells = zip(recording.channels, episode.values[row], episode.observed[row], strict=True)
+        message = {name: float(value) for name, value, seen in cells if seen}
+        writer.add_message(topic, stamp, json.dumps(message).encode(), stamp, row)
+    writer.finish()
+    return content.getvalue()
+
+
+def _check_finite(path: Path, episode: Episode, channels: tuple[str, ...]) -> None:
+    wrong = np.argwhere(episode.observed & ~np.isfinite(episode.values))
+    if len(wrong):
+        row, column = wrong[0]
+        raise RecordingError(
+            f"{path}: episode '{episode.name}', row {row}, channel '{channels[column]}': "
+            f"JSON cannot hold {episode.values[row, column]}"
+        )
+
+
+def _stamps(path: Path, episode: Episode, rate_hz: float | None) -> Int[ndarray, " T"]:
+    """Return every row's time [ns] from the first."""
+    where = f"{path}: episode '{episode.name}'"
+    if not len(episode.values):
+        raise RecordingError(f"{where} has no rows; an MCAP file needs at least one")
+    if episode.times is not None:
+        times = episode.times - episode.times[0]
+    elif rate_hz is not None:
+        times = np.arange(len(episode.values)) / rate_hz
+    else:
+        raise RecordingError(f"{where} has no times, and the recording no known rate")
+    stamps: Int[ndarray, " T"] = np.rint(times * 1e9).astype(np.int64)
+    if np.any(np.diff(stamps) <= 0):
+        raise RecordingError(f"{where}: its times do not rise from row to row")
+    return stamps

@@ -1,0 +1,129 @@
+"""The project's own file: an .npz with JSON beside the arrays; the same content, the same bytes."""
+
+import io
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+
+from motionese.errors import RecordingError
+from motionese.recordings.formats.numpy_files import UNREADABLE, why
+from motionese.recordings.formats.written import write_file
+from motionese.recordings.recording import Episode, Recording
+
+FORMAT, VERSION = "motionese-motions", 1
+METADATA = "metadata"
+
+
+class Metadata(BaseModel):
+    """What the file says of its arrays `values_i`, `observed_i` and, where given, `times_i`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+    ranges: dict[str, tuple[float, float]]
+    rate_hz: float | None
+    usual: tuple[str, ...]
+    episodes: tuple[str, ...]
+    format: str = FORMAT
+    version: int = VERSION
+
+    @model_validator(mode="after")
+    def _consistent(self) -> "Metadata":
+        if len(self.units) != len(self.channels):
+            raise ValueError(f"{len(self.channels)} channels need as many units, got {self.units}")
+        strange = {*self.usual, *self.ranges} - {*self.channels}
+        if strange:
+            raise ValueError(f"there is no channel '{min(strange)}'")
+        if self.rate_hz is not None and not 0 < self.rate_hz < math.inf:
+            raise ValueError(f"a rate must be finite and > 0, got {self.rate_hz}")
+        for name, (low, high) in self.ranges.items():
+            if not -math.inf < low < high < math.inf:
+                raise ValueError(f"channel '{name}' has no range from {low} to {high}")
+        return self
+
+
+def read(path: Path) -> Recording:
+    """Read a file that `write` wrote.
+
+    Raises:
+        RecordingError: Another file, one cut short, or one of a newer format.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            metadata = _metadata(path, file)
+            episodes = tuple(
+                _episode(path, file, i, name, len(metadata.channels))
+                for i, name in enumerate(metadata.episodes)
+            )
+    except UNREADABLE as error:
+        raise RecordingError(
+            f"{path}: not a whole file of motions that motionese wrote: {why(error)}"
+        ) from error
+    return Recording(
+        path,
+        metadata.channels,
+        metadata.units,
+        metadata.ranges,
+        metadata.rate_hz,
+        episodes,
+        metadata.usual,
+    )
+
+
+def write(path: Path, recording: Recording) -> None:
+    """Write a recording with all that it holds."""
+    metadata = Metadata(
+        channels=recording.channels,
+        units=recording.units,
+        ranges=dict(recording.ranges),
+        rate_hz=recording.rate_hz,
+        usual=recording.usual,
+        episodes=tuple(e.name for e in recording.episodes),
+    )
+    arrays: dict[str, Any] = {METADATA: np.array(metadata.model_dump_json())}
+    for i, episode in enumerate(recording.episodes):
+        arrays |= {f"values_{i}": episode.values, f"observed_{i}": episode.observed}
+        if episode.times is not None:
+            arrays[f"times_{i}"] = episode.times
+    content = io.BytesIO()
+    np.savez_compressed(content, **arrays)
+    write_file(path, content.getvalue())
+
+
+def _metadata(path: Path, file: Any) -> Metadata:
+    table = json.loads(str(file[METADATA]))
+    if not isinstance(table, dict) or table.get("format") != FORMAT:
+        raise RecordingError(f"{path}: an .npz file, but not of motions that motionese wrote")
+    if table.get("version") != VERSION:
+        raise RecordingError(
+            f"{path}: written in format version {table.get('version')}, "
+            f"this motionese reads version {VERSION}; a newer motionese may read it"
+        )
+    try:
+        return Metadata.model_validate_json(str(file[METADATA]))
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(map(str, first["loc"])) or "channels"
+        what = first["msg"].removeprefix("Value error, ")
+        raise RecordingError(f"{path}: its metadata are damaged: {name}: {what}") from error
+
+
+def _episode(path: Path, file: Any, i: int, name: str, width: int) -> Episode:
+    values, observed = file[f"values_{i}"], file[f"observed_{i}"]
+    times = file.get(f"times_{i}")
+    for what, array, dtype, shape in (
+        ("values", values, np.float64, (len(values), width)),
+        ("mask", observed, np.bool_, (len(values), width)),
+        ("times", times, np.float64, (len(values),)),
+    ):
+        if array is not None and (array.dtype != dtype or array.shape != shape):
+            raise RecordingError(
+                f"{path}: the {what} of episode '{name}' should be {np.dtype(dtype)} of shape "
+                f"{shape}, got {array.dtype} of shape {array.shape}"
+            )
+    return Episode(name, times, values, observed)

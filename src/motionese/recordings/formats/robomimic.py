@@ -1,0 +1,174 @@
+"""robomimic's HDF5: `data/demo_0/obs/…`, one group a demonstration.
+
+Channels are the floating-point datasets [T] and [T, n] of `obs` and of the demonstration itself
+(`actions`, `states`, `rewards`), named KEY or KEY_0, KEY_1, …; images are left alone. robomimic
+names no columns: a dataset that we wrote says in its attributes `names` and `units` what they are.
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.robomimic_damage import check_walkable
+from motionese.recordings.formats.robomimic_writing import DERIVED, write
+from motionese.recordings.formats.widest import WIDEST
+from motionese.recordings.natural_order import natural
+from motionese.recordings.rate import FASTEST_HZ
+from motionese.recordings.recording import Episode, Recording
+
+__all__ = ["read", "write"]
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """The channels of one dataset, which has the same columns in every demonstration."""
+
+    dataset: str
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+
+
+def read(path: Path) -> Recording:
+    """Read the demonstrations of a robomimic file, in natural order, whatever its masks say.
+
+    The rate is `control_freq` of the environment where the file has it. Observations are usual;
+    actions where there are none.
+
+    Raises:
+        RecordingError: Not such a file, cut short, or datasets that do not fit together.
+        MissingPackageError: h5py is not installed.
+    """
+    try:
+        import h5py  # noqa: PLC0415
+    except ImportError as error:
+        raise needs("h5py", "hdf5", "reading robomimic's HDF5") from error
+    check_walkable(path)
+    try:
+        with h5py.File(path, "r") as file:
+            return _recording(path, file)
+    except (OSError, RuntimeError, LookupError, TypeError, ValueError, MemoryError) as error:
+        # What h5py raises depends on which byte is damaged.
+        why = " ".join(str(error).split())
+        raise RecordingError(f"{path}: not an HDF5 file, cut short, or damaged ({why})") from error
+
+
+def _recording(path: Path, file: Any) -> Recording:
+    data = file.get("data")
+    groups = [key for key in data if _is_group(data[key])] if _is_group(data) else []
+    demos = sorted(groups, key=natural)
+    if not demos:
+        raise RecordingError(
+            f"{path}: no demonstrations: robomimic's HDF5 has groups data/demo_0, data/demo_1, …; "
+            f"here are: {', '.join(file) or 'none'}"
+        )
+    columns = tuple(_columns(data[demos[0]]))
+    if not columns:
+        raise RecordingError(
+            f"{path}: '{demos[0]}' has no floating-point datasets of shape [T] or [T, n]"
+        )
+    episodes = tuple(_episode(path, data[demo], columns) for demo in demos)
+    return Recording(
+        source=path,
+        channels=tuple(n for c in columns for n in c.names),
+        units=tuple(u for c in columns for u in c.units),
+        ranges={},
+        rate_hz=_rate(data.attrs.get("env_args")),
+        episodes=episodes,
+        usual=_usual(columns),
+    )
+
+
+def _columns(demo: Any) -> Iterator[_Columns]:
+    paths: list[str] = []
+    if _is_group(demo.get("obs")):
+        demo["obs"].visit(lambda key: paths.append(f"obs/{key}"))
+    paths += [key for key in demo if key != "obs"]
+    for name in paths:
+        dataset = demo[name]
+        if not _is_table(dataset) or DERIVED in dataset.attrs:
+            continue
+        label = name.removeprefix("obs/")
+        width = 1 if dataset.ndim == 1 else dataset.shape[1]
+        plain = (label,) if dataset.ndim == 1 else tuple(f"{label}_{i}" for i in range(width))
+        yield _Columns(
+            name,
+            _told(dataset, "names", width) or plain,
+            _told(dataset, "units", width) or ("",) * width,
+        )
+
+
+def _is_group(item: Any) -> bool:
+    return hasattr(item, "keys")
+
+
+def _is_table(item: Any) -> bool:
+    if not hasattr(item, "dtype") or item.dtype.kind != "f":
+        return False
+    return bool(item.ndim == 1 or (item.ndim == 2 and 0 < item.shape[1] <= WIDEST))
+
+
+def _told(dataset: Any, attribute: str, width: int) -> tuple[str, ...] | None:
+    told = _json(dataset.attrs.get(attribute))
+    if isinstance(told, list) and len(told) == width and all(isinstance(t, str) for t in told):
+        return tuple(told)
+    return None
+
+
+def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
+    own_name = demo.name.rpartition("/")[2]
+    where = f"{path}: '{own_name}'"
+    rows = {}
+    for column in columns:
+        dataset, width = demo.get(column.dataset), len(column.names)
+        if not _is_table(dataset) or (dataset.shape[1] if dataset.ndim == 2 else 1) != width:
+            raise RecordingError(
+                f"{where} has no dataset {column.dataset} of {width} columns, "
+                f"which the first demonstration has"
+            )
+        rows[column.dataset] = len(dataset)
+    told = demo.attrs.get("num_samples")
+    if isinstance(told, int | np.integer):
+        rows["its attribute num_samples"] = int(told)
+    first, *others = rows.items()
+    for what, count in others:
+        if count != first[1]:
+            raise RecordingError(
+                f"{where}: {first[0]} has {first[1]} rows, {what} {count}; they must agree"
+            )
+    tables = [np.asarray(demo[c.dataset][()]).reshape(-1, len(c.names)) for c in columns]
+    values = np.concatenate(tables, axis=1, dtype=np.float64)
+    name = demo.attrs.get("name")
+    return Episode(
+        name=name if isinstance(name, str) else own_name,
+        times=None,
+        values=values,
+        observed=np.ones(values.shape, dtype=bool),
+    )
+
+
+def _usual(columns: tuple[_Columns, ...]) -> tuple[str, ...]:
+    observed = [c for c in columns if c.dataset.startswith("obs/")]
+    acted = [c for c in columns if c.dataset == "actions"]
+    return tuple(n for c in observed or acted or columns for n in c.names)
+
+
+def _rate(env_args: Any) -> float | None:
+    """Return the control rate [Hz] that the environment's arguments tell."""
+    told = _json(env_args)
+    for key in ("env_kwargs", "control_freq"):
+        told = told.get(key) if isinstance(told, dict) else None
+    if isinstance(told, int | float) and 0 < told <= FASTEST_HZ:
+        return float(told)
+    return None
+
+
+def _json(text: Any) -> Any:
+    try:
+        return json.loads(text)
+    except (TypeError, ValueError, RecursionError):
+        return None

@@ -1,0 +1,79 @@
+"""At which rate rows were recorded: as the file says, as its times show, or as the user says."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.errors import RecordingError
+from motionese.recordings.recording import Recording
+
+DIFFERS = 0.02
+"""Share by which a rate that the user gives may differ from the file's."""
+DROPPED = 1.5
+"""Usual intervals from which on a row between two others was dropped."""
+OFF = 0.05
+"""Rows by which the rounding of a rate may at most put off an episode's last row."""
+LATEST_S = 1e30
+"""A time [s] that is no more than a number."""
+SLOWEST_HZ, FASTEST_HZ = 1e-3, 1e6
+
+
+def rate_of(recording: Recording, given_hz: float | None) -> float:
+    """Return the rows per second [Hz] of a recording; the user's where the file tells none.
+
+    Raises:
+        RecordingError: Nobody tells it, the user and the file tell different ones, or the times
+            do not rise or are in another unit.
+    """
+    shown = rate_of_times(_rising_times(recording))
+    told = shown if recording.rate_hz is None else recording.rate_hz
+    if told is None:
+        if given_hz is None:
+            raise RecordingError(
+                f"{recording.source}: tells neither times nor a rate; "
+                "give the rate [Hz] it was recorded at: --rate"
+            )
+        return given_hz
+    if not SLOWEST_HZ <= told <= FASTEST_HZ:
+        raise RecordingError(
+            f"{recording.source}: rows are {1 / told:g} s apart; are its times in seconds? "
+            "A column can name its unit, as in 'time [ms]'"
+        )
+    if given_hz is not None and abs(told - given_hz) > DIFFERS * told:
+        raise RecordingError(
+            f"{recording.source}: recorded at {told:g} Hz, but its rate is given as "
+            f"{given_hz:g} Hz; leave that out, or resample to it: --resample {given_hz:g}"
+        )
+    return told
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def rate_of_times(times: Sequence[Float[ndarray, " _"]]) -> float | None:
+    """Return the rate that rising times show, dropped rows left aside; None without two rows."""
+    intervals = np.concatenate([np.empty(0), *(np.diff(t) for t in times)])
+    if not len(intervals):
+        return None
+    near = intervals[intervals < DROPPED * np.median(intervals)]
+    rate = 1.0 / float(near.mean())
+    # Stamps are rounded: the rate is the shortest number that they cannot tell from their mean.
+    off = min(max(float(np.abs(near * rate - 1).max()), 1e-9), OFF)
+    longest = max(float(t[-1] - t[0]) for t in times if len(t))
+    rounded = (float(f"{rate:.{digits}g}") for digits in range(1, 18))
+    return next(r for r in rounded if abs(r - rate) * longest <= off or r == rate)
+
+
+def _rising_times(recording: Recording) -> list[Float[ndarray, " _"]]:
+    times = []
+    for episode in recording.episodes:
+        if episode.times is not None:
+            back = np.flatnonzero(~(np.diff(episode.times) > 0))
+            if len(back) or not (np.abs(episode.times) < LATEST_S).all():
+                row = back[0] + 1 if len(back) else 0
+                raise RecordingError(
+                    f"{recording.source}: episode '{episode.name}', row {row}: "
+                    "time must be finite and rise"
+                )
+            times.append(episode.times)
+    return times

@@ -1,0 +1,51 @@
+"""What a file of recordings holds, before anything is chosen, filled in, or refused."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from jaxtyping import Bool, Float
+from numpy import ndarray
+
+
+@dataclass(frozen=True)
+class Episode:
+    """One motion as it was recorded.
+
+    Attributes:
+        name: Unique in its recording.
+        times: When each row was recorded [s]; None where rows are evenly spaced at the
+            recording's rate.
+        values: In the channels' units; anything where nothing was observed.
+        observed: False only where the file says that nothing was recorded: an empty cell, no
+            message of that topic, a mask. A NaN that was written as a value counts as observed.
+    """
+
+    name: str
+    times: Float[ndarray, " T"] | None
+    values: Float[ndarray, "T D"]
+    observed: Bool[ndarray, "T D"]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Episodes over the same channels, as one file or folder holds them.
+
+    Attributes:
+        source: The file or folder, for messages.
+        channels: Names of the D columns.
+        units: One per channel; empty where unknown.
+        ranges: (low, high) in the channel's unit, of those channels whose range the file tells.
+        rate_hz: Rows per second [Hz] that the file tells; None where only times tell it, or
+            nothing does.
+        episodes: At least one.
+        usual: The channels that are taken when none are chosen.
+    """
+
+    source: Path
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+    ranges: Mapping[str, tuple[float, float]]
+    rate_hz: float | None
+    episodes: tuple[Episode, ...]
+    usual: tuple[str, ...]

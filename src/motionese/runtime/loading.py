@@ -1,0 +1,134 @@
+"""A model read from its file without the packages that it was trained with."""
+
+import json
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy import ndarray
+
+from motionese.errors import StorageError
+from motionese.runtime.model import RuntimeModel
+from motionese.runtime.safetensors_file import parse
+
+FORMAT, VERSION = "motionese-mtrnn", 1
+BROKEN = (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError)
+
+
+def load(path: str | Path) -> RuntimeModel:
+    """Read a model that `motionese.save` wrote.
+
+    Raises:
+        StorageError: The file is not there, not ours, cut short, of a newer format, without
+            channels or initial states, or holds values that no network can have.
+    """
+    path = Path(path)
+    structure, tensors = _contents(path)
+    try:
+        return _model(path, structure, tensors)
+    except BROKEN as error:
+        raise StorageError(f"{path}: its description of the network is incomplete") from error
+
+
+def _contents(path: Path) -> tuple[dict[str, Any], dict[str, ndarray]]:
+    if not path.is_file():
+        raise StorageError(f"{path}: no such model file")
+    try:
+        metadata, tensors = parse(path.read_bytes())
+        structure = json.loads(metadata.get("motionese", "null"))
+    except (*BROKEN, OSError) as error:
+        raise StorageError(f"{path}: not a readable model file, perhaps cut short") from error
+    if not isinstance(structure, dict) or structure.get("format") != FORMAT:
+        raise StorageError(f"{path}: not a model of motionese")
+    if structure.get("version") != VERSION:
+        raise StorageError(
+            f"{path}: model format {structure.get('version')}, this version reads {VERSION}; "
+            "install a newer motionese"
+        )
+    return structure, tensors
+
+
+def _model(path: Path, structure: dict[str, Any], tensors: dict[str, ndarray]) -> RuntimeModel:
+    sizes = [int(level["size"]) for level in structure["levels"]]
+    facts = dict(structure["facts"])
+    if len(sizes) < 2 or min(sizes) < 1:
+        raise StorageError(f"{path}: no valid network: its levels have {sizes} units")
+    if "initial_states" not in tensors or "names" not in facts:
+        raise StorageError(f"{path}: a network without a fit; initial states missing")
+    names = [str(name) for name in facts["names"]]
+    units = sum(sizes)
+    shapes = {
+        "weights": (units, units),
+        "bias": (units,),
+        "tau": (units,),
+        "initial_states": (len(names), units),
+    }
+    held = {name: _checked(path, name, tensors.get(name), shape) for name, shape in shapes.items()}
+    level = np.repeat(np.arange(len(sizes)), sizes)
+    wired = np.abs(level[:, None] - level[None, :]) <= 1
+    initial = dict(zip(names, held["initial_states"], strict=True))
+    return RuntimeModel(
+        weights=_fixed(held["weights"] * wired),
+        bias=_fixed(held["bias"]),
+        tau=_fixed(held["tau"]),
+        rate_hz=_rate(path, facts.get("rate_hz")),
+        initial_states=MappingProxyType(initial),
+        lengths=MappingProxyType(_lengths(names, facts.get("lengths"))),
+        senses_first={"sensed": True, "zero": False}[structure["initial_io"]],
+        **_channels(path, structure["channels"], sizes[0]),
+    )
+
+
+def _checked(path: Path, name: str, value: ndarray | None, shape: tuple[int, ...]) -> ndarray:
+    if value is None or value.shape != shape:
+        got = "nothing" if value is None else f"shape {value.shape}"
+        raise StorageError(f"{path}: {name} must have shape {shape}, got {got}")
+    with np.errstate(over="ignore"):
+        single = value.astype(np.float32)
+    if not np.isfinite(single).all():
+        raise StorageError(f"{path}: {name} holds values that are not finite")
+    if name == "tau" and single.min() < 1:
+        raise StorageError(f"{path}: tau must be ≥ 1 step, got {float(single.min()):g}")
+    return single
+
+
+def _fixed(value: ndarray) -> ndarray:
+    value = np.ascontiguousarray(value)
+    value.flags.writeable = False
+    return value
+
+
+def _rate(path: Path, rate_hz: Any) -> float | None:
+    if rate_hz is None:
+        return None
+    if not 0 < (rate := float(rate_hz)) < np.inf:
+        raise StorageError(f"{path}: its rate must be finite and > 0 Hz, got {rate_hz}")
+    return rate
+
+
+def _lengths(names: list[str], lengths: Any) -> dict[str, int]:
+    if lengths is None:
+        return {}
+    return {name: int(rows) for name, rows in zip(names, lengths, strict=True)}
+
+
+def _channels(path: Path, channels: Any, width: int) -> dict[str, Any]:
+    """Return the fields of a model that tell its channels."""
+    if channels is None:
+        raise StorageError(f"{path}: the network carries no channels; train it on motions first")
+    names = tuple(str(channel["name"]) for channel in channels)
+    low, high = (np.array([float(c[end]) for c in channels]) for end in ("low", "high"))
+    if len(names) != width or len(set(names)) < width:
+        raise StorageError(
+            f"{path}: no valid network: {width} IO units need as many channels of different names, "
+            f"got {', '.join(names)}"
+        )
+    wrong = np.flatnonzero(~(np.isfinite(low) & np.isfinite(high) & (low < high)))
+    if len(wrong):
+        raise StorageError(
+            f"{path}: no valid network: channel '{names[wrong[0]]}': its range must be finite with "
+            f"low < high, got {low[wrong[0]]:g} to {high[wrong[0]]:g}"
+        )
+    units = tuple(str(channel["unit"]) for channel in channels)
+    return {"channels": names, "units": units, "low": _fixed(low), "high": _fixed(high)}

@@ -1,0 +1,98 @@
+"""A motion as it is played: readings in, the next row out, all in the channels' units."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy import ndarray
+
+from motionese.errors import ControlError
+from motionese.runtime.model import RuntimeModel
+from motionese.runtime.readings import Reading, row_of
+from motionese.runtime.state import State
+from motionese.runtime.step import Stepper
+from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
+
+Share = float | Mapping[str, float]
+
+
+class Player:
+    """Plays a motion step by step, and passes from one motion to another without a jump."""
+
+    def __init__(self, model: RuntimeModel, state: State, share: Share = 0.0) -> None:
+        """Take a state to play on from.
+
+        Args:
+            model: The model.
+            state: Where to begin, see `RuntimeModel.begin`; it is moved on.
+            share: How much of what the network takes in is sensed and how much its own
+                prediction, from 0 (closed loop) to 1, for all channels or by name (others 0). What
+                was not sensed at a step is predicted in any case.
+        """
+        self._model, self._share = model, shares(model, share)
+        self._stepper = Stepper(model)
+        self._state = state
+        self._former: State | None = None
+        self._coming: tuple[ndarray, int] | None = None
+        self._blended = self._blend = 0
+        self._row = state.y[: len(model.channels)].astype(np.float64)
+
+    @property
+    def row(self) -> ndarray:
+        """Where the motion is, in the channels' units. [D]"""
+        return self._model.from_unit(self._row)
+
+    @property
+    def finite(self) -> bool:
+        """Whether the network has not left the numbers."""
+        return bool(np.isfinite(self._row).all() and np.isfinite(self._state.u).all())
+
+    def blend_to(self, start: str | ndarray, steps: int) -> None:
+        """Pass to another motion, whose first row is the next one of the present motion.
+
+        Over so many rows both are played and the row goes from one to the other by the minimum
+        jerk's weights 10 s³ − 15 s⁴ + 6 s⁵ (Flash & Hogan 1985); with 0 at once.
+        """
+        if steps < 0:
+            raise ControlError(f"a blend takes 0 steps or more, got {steps}")
+        if self._former is not None:
+            left = self._blend - 1 - self._blended
+            raise ControlError(f"the blend before this one has {left} steps to go")
+        self._coming = self._model.begin(start).u, steps
+
+    def step(self, reading: Reading = None) -> ndarray:
+        """Take in a reading of the present row and return the next one, in the channels' units."""
+        values = row_of(reading, self._model.channels)
+        return self.step_unit(self._model.to_unit(values))
+
+    def step_unit(self, sensed: ndarray) -> ndarray:
+        """Do as `step` with a reading [D] in the unit interval, NaN where nothing was read."""
+        row = self._moved(self._state, sensed)
+        if self._former is not None:
+            self._blended += 1
+            weight = minimum_jerk(self._blended / self._blend)
+            row = (1 - weight) * self._moved(self._former, sensed) + weight * row
+        if self._coming is not None:
+            u, self._blend = self._coming
+            self._former, self._coming, self._blended = self._state, None, 0
+            self._state = self._model.placed(u, np.clip(row, CLIP_LOW, CLIP_HIGH))
+        if self._blended + 1 >= self._blend:
+            self._former = None
+        self._row = row
+        return self.row
+
+    def _moved(self, state: State, sensed: ndarray) -> ndarray:
+        """Move a state on; its row [D] in the unit interval, an array of its own."""
+        return self._stepper.step(state, sensed, self._share).astype(np.float64)
+
+
+def shares(model: RuntimeModel, share: Share) -> ndarray:
+    """Return every channel's share of what is sensed [D]; `ControlError` outside 0 to 1."""
+    spread = np.array(model.per_channel("share", share, 0.0), dtype=np.float32)
+    if not ((spread >= 0) & (spread <= 1)).all():
+        raise ControlError(f"the share of what is sensed must be 0 to 1, got {share}")
+    return spread
+
+
+def minimum_jerk(s: float) -> float:
+    """Return how far a movement of minimum jerk has come at the share s of its time."""
+    return s**3 * (10 - 15 * s + 6 * s**2)

@@ -1,0 +1,100 @@
+"""Folders of EIPL: padding is turned into lengths."""
+
+import numpy as np
+import pytest
+
+from motionese.errors import RecordingError
+from motionese.recordings import read, write
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Write joints of lengths 5, 9, 7, padded in some way, as a folder; and what they were."""
+    rng = np.random.default_rng(0)
+    real = [rng.normal(size=(n, 2)).astype(np.float32) for n in (5, 9, 7)]
+
+    def wrote(padding, where=""):
+        joints = np.zeros((3, 9, 2), np.float32)
+        for values, row in zip(real, joints, strict=True):
+            row[:] = values[-1] if padding == "last" else padding
+            row[: len(values)] = values
+        (tmp_path / where).mkdir(exist_ok=True)
+        np.save(tmp_path / where / "joints.npy", joints)
+        return tmp_path, real
+
+    return wrote
+
+
+@pytest.mark.parametrize("padding", ["last", 0.0, np.nan])
+def test_padding_becomes_lengths(folder, padding):
+    path, real = folder(padding)
+    found = read(path)
+
+    assert found.channels == ("joint_0", "joint_1")
+    assert found.rate_hz is None
+    assert [e.name for e in found.episodes] == ["0", "1", "2"]
+    for episode, values in zip(found.episodes, real, strict=True):
+        np.testing.assert_array_equal(episode.values, values)
+        assert episode.observed.all()
+
+
+def test_a_still_stretch_within_an_episode_is_no_padding(tmp_path):
+    joints = np.array([[[1.0], [1.0], [1.0], [2.0]], [[0.0], [0.0], [3.0], [3.0]]])
+    np.save(tmp_path / "joints.npy", joints)
+
+    assert [len(e.values) for e in read(tmp_path).episodes] == [4, 3]
+
+
+def test_train_and_test_are_told_apart_and_images_left_alone(folder):
+    path, _ = folder("last", "train")
+    folder("last", "test")
+    for part in ("train", "test"):
+        np.save(path / part / "images.npy", np.zeros((3, 9, 4, 4, 3), np.uint8))
+        np.save(path / part / "force.npy", np.ones((3, 9, 1)))
+    np.save(path / "joint_bounds.npy", np.array([[-3.0, 1.0], [3.0, 1.0]]))
+
+    found = read(path)
+
+    assert found.channels == ("joint_0", "joint_1", "force_0")
+    assert [e.name for e in found.episodes][::3] == ["train/0", "test/0"]
+    assert found.ranges == {"joint_0": (-3.0, 3.0)}
+
+
+def test_a_recording_is_written_as_it_reads(whole, tmp_path):
+    path = tmp_path / "out"
+    write(path, whole, "eipl")
+    found = read(path)
+
+    assert np.load(path / "joints.npy").shape == (2, 7, 3)
+    assert np.load(path / "joints.npy").dtype == np.float32
+    assert found.ranges["joint_0"] == (-4.0, 4.5)
+    for was, now in zip(whole.episodes, found.episodes, strict=True):
+        np.testing.assert_array_equal(now.values, was.values.astype(np.float32))
+    with pytest.raises(RecordingError, match="out: exists already"):
+        write(path, whole, "eipl")
+
+
+def test_gaps_are_refused_and_leave_nothing(recording, tmp_path):
+    with pytest.raises(RecordingError, match="an EIPL folder cannot hold gaps; csv, npz and mcap"):
+        write(tmp_path / "out", recording, "eipl")
+
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("joints", "bounds", "match"),
+    [
+        (np.zeros((3, 4)), None, r"expected \[episodes, rows, joints\], got shape \(3, 4\)"),
+        (np.zeros((0, 4, 2)), None, r"expected \[episodes, rows, joints\]"),
+        (np.full((1, 2, 2), "a"), None, "'joint' holds <U1, no numbers"),
+        (np.array([[[None]]]), None, "joints.npy: not an array of NumPy: .*object"),
+        (np.ones((1, 2, 2)), np.zeros((2, 3)), r"expected shape \(2, 2\).* got .*\(2, 3\)"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(tmp_path, joints, bounds, match):
+    np.save(tmp_path / "joints.npy", joints)
+    if bounds is not None:
+        np.save(tmp_path / "joint_bounds.npy", bounds)
+
+    with pytest.raises(RecordingError, match=match):
+        read(tmp_path)

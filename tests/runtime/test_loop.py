@@ -1,0 +1,224 @@
+"""The control loop by a clock of the test's own: what is sent, when, and how it ends."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_models import Clock
+
+from motionese.errors import ControlError
+from motionese.runtime import ControlLoop, Ended, Limits, Part, Player
+
+HERE = {"lift": 0.4, "turn": -20.0, "grip": 0.5}
+WIDE = Limits(ranges={"lift": (-9, 9), "turn": (-999, 999), "grip": (-9, 9)})
+
+
+class Robot:
+    """Records what it is sent and when; `delays` [s] are what some commands take."""
+
+    def __init__(self, clock, delays=None):
+        self.clock, self.delays = clock, delays or {}
+        self.sent, self.times, self.stops = [], [], 0
+
+    def act(self, commands):
+        self.clock.time += self.delays.get(len(self.sent), 0.001)
+        self.sent.append(list(commands.values()))
+        self.times.append(round(self.clock.time - 100.0, 6))
+
+    def stop(self):
+        self.stops += 1
+
+
+@pytest.fixture
+def robot():
+    return Robot(Clock())
+
+
+def loop_of(model, robot, sense=lambda: HERE, **settings):
+    settings = {"limits": WIDE, "stop": robot.stop, "clock": robot.clock, **settings}
+    return ControlLoop(model, sense, robot.act, **settings)
+
+
+def test_the_loop_sends_what_the_player_plays_from_where_the_robot_is(model, robot):
+    ran = loop_of(model, robot).run("reach")
+
+    player = Player(model, model.begin("reach", HERE))
+    np.testing.assert_allclose(robot.sent, [player.step() for _ in range(40)], rtol=1e-6)
+    assert (ran.ended, ran.steps, ran.missed, ran.skipped) == (Ended.DONE, 40, 0, 0)
+    assert ran.sentence == "everything was played to its end, 40 steps"
+    assert robot.stops == 0
+
+
+def test_readings_are_mixed_in_and_missing_ones_predicted(model, robot):
+    readings = [HERE, {"lift": -0.5}, None, {"turn": 10.0, "lift": 0.0}, {"grip": np.nan}]
+    given = iter(readings)
+    loop_of(model, robot, lambda: next(given), share={"lift": 0.5, "grip": 1.0}).run(
+        Part("wave", 5)
+    )
+
+    player = Player(model, model.begin("wave", HERE), {"lift": 0.5, "grip": 1.0})
+    np.testing.assert_allclose(robot.sent, [player.step(r) for r in readings], rtol=1e-6)
+
+
+def test_parts_follow_one_another(model, robot):
+    state = model.initial("wave")
+    ran = loop_of(model, robot).run("reach", Part(state, 25, blend=10), "wave")
+
+    player = Player(model, model.begin("reach", HERE))
+    expected = [player.step() for _ in range(40)]
+    player.blend_to("wave", 10)
+    expected += [player.step() for _ in range(25)]
+    player.blend_to("wave", 0)
+    expected += [player.step() for _ in range(31)]
+    np.testing.assert_allclose(robot.sent, expected, rtol=1e-6)
+    assert ran.steps == 96
+
+
+def test_cycles_keep_to_a_grid_of_time(model, robot):
+    robot.delays = {n: 0.001 * (n % 7) for n in range(100)}
+    ran = loop_of(model, robot).run(Part("reach", 100))
+
+    np.testing.assert_allclose(robot.times, [0.05 * n + 0.001 * (n % 7) for n in range(100)])
+    assert ran.worst_lateness_s == pytest.approx(0.006)
+    assert (ran.missed, ran.skipped) == (0, 0)
+
+
+def test_missed_deadlines_are_counted_and_not_caught_up(model, robot):
+    robot.delays = {2: 0.06, 4: 0.17}
+    ran = loop_of(model, robot).run(Part("reach", 6))
+
+    begun = [0.0, 0.05, 0.1, 0.2, 0.25, 0.45]
+    np.testing.assert_allclose(
+        robot.times, np.add(begun, [0.001, 0.001, 0.06, 0.001, 0.17, 0.001]), atol=1e-9
+    )
+    assert (ran.missed, ran.skipped, ran.steps) == (2, 1 + 3, 6)
+    assert ran.worst_lateness_s == pytest.approx(0.17)
+
+
+def test_limits_hold_from_the_first_command_on(model, robot):
+    limits = Limits(ranges={"turn": (-25.0, 30.0)}, speeds={"lift": 0.2})
+    ran = loop_of(model, robot, limits=limits).run("reach")
+
+    path = np.array([list(HERE.values()), *robot.sent])
+    assert np.abs(np.diff(path[:, 0])).max() <= 0.2 / 20 + 1e-9
+    assert path[:, 1].min() >= -25.0
+    assert ran.slowed["lift"] > 0
+    assert sum(ran.slowed.values()) == ran.slowed["lift"]
+
+
+def test_nothing_is_sent_before_the_robot_has_said_where_it_is(model, robot):
+    readings = iter([None, {}, {"lift": np.nan}])
+    ran = loop_of(model, robot, lambda: next(readings, HERE)).run(Part("reach", 3))
+
+    assert ran.steps == 3
+    assert robot.times[0] == pytest.approx(0.151)
+
+    silent = loop_of(model, robot, lambda: None, watchdog_s=0.3).run("reach")
+    assert (silent.ended, silent.steps) == (Ended.SENSORS_SILENT, 0)
+    assert len(robot.sent) == 3
+
+
+def test_sensors_that_fall_silent_end_the_loop_and_the_last_command_holds(model, robot):
+    def sense():
+        return HERE if robot.clock.time < 100.52 else None
+
+    ran = loop_of(model, robot, sense, watchdog_s=0.22).run("reach")
+
+    assert ran.ended is Ended.SENSORS_SILENT
+    assert ran.sentence == (
+        "no reading came for more than 0.22 s; the last command holds, that of step 15"
+    )
+    assert len(robot.sent) == ran.steps == 15
+    assert robot.stops == 0
+
+
+def test_end_ends_the_loop_before_its_next_command(model, robot):
+    loop = loop_of(model, robot, lambda: loop.end() if len(robot.sent) == 4 else HERE)
+    ran = loop.run("reach")
+
+    assert (ran.ended, ran.steps, len(robot.sent)) == (Ended.STOPPED, 4, 4)
+    assert ran.sentence == "the loop was asked to end, after 4 steps"
+
+
+@pytest.mark.parametrize("where", ["sense", "act"])
+@pytest.mark.parametrize("error", [OSError("bus error"), KeyboardInterrupt()])
+def test_errors_stop_the_robot_and_are_raised(model, robot, monkeypatch, where, error):
+    def fails(*_):
+        if len(robot.sent) == 3:
+            raise error
+        return HERE if where == "sense" else plain(*_)
+
+    plain = robot.act
+    sense = fails if where == "sense" else lambda: HERE
+    monkeypatch.setattr(robot, "act", fails if where == "act" else plain)
+    with pytest.raises(type(error)):
+        loop_of(model, robot, sense).run("reach")
+
+    assert (len(robot.sent), robot.stops) == (3, 1)
+
+
+def test_a_reading_that_does_not_fit_stops_the_robot(model, robot):
+    with pytest.raises(ControlError, match="reading: unknown channel 'elbow'"):
+        loop_of(model, robot, lambda: {"elbow": 0.1}).run("reach")
+
+    assert (robot.sent, robot.stops) == ([], 1)
+
+
+def test_a_prediction_that_is_not_finite_is_never_sent(model, robot):
+    bias = np.where(np.arange(12) == 8, np.float32(3e38), model.bias)
+    weights = np.where(np.arange(12)[:, None] == 3, 0, model.weights)
+    weights[0, 8] = weights[0, 9] = 3e38
+    broken = replace(model, bias=bias, weights=weights, tau=np.ones(12, np.float32))
+
+    with np.errstate(over="ignore", invalid="ignore"):
+        ran = loop_of(broken, robot).run("reach")
+
+    assert ran.ended is Ended.NOT_FINITE
+    assert (len(robot.sent), robot.stops) == (ran.steps, 1)
+    assert np.isfinite(robot.sent).all()
+    assert "not finite; it was not sent" in ran.sentence
+
+
+@pytest.mark.parametrize(
+    ("settings", "match"),
+    [
+        ({"rate_hz": 40.0}, r"at 40 Hz, but the model learned .* 20 Hz: .*model.with_rate\(40\)"),
+        ({"rate_hz": 0.0}, "rate_hz must be finite and > 0, got 0"),
+        ({"watchdog_s": 0.1}, r"two periods \(0\.1 s at 20 Hz\), got 0\.1 s"),
+        ({"watchdog_s": np.inf}, "must be finite and more than two periods"),
+        ({"share": 2.0}, "must be 0 to 1, got 2"),
+        ({"limits": Limits(speeds={"left": 1.0})}, "unknown channel 'left'"),
+    ],
+)
+def test_settings_that_cannot_be_are_refused_at_once(model, robot, settings, match):
+    with pytest.raises(ControlError, match=match):
+        loop_of(model, robot, **settings)
+
+
+def test_a_model_without_a_rate_is_given_one(model, robot):
+    untold = replace(model, rate_hz=None)
+    with pytest.raises(ControlError, match="does not tell its rate: give rate_hz"):
+        loop_of(untold, robot)
+    assert loop_of(untold, robot, rate_hz=10.0).run(Part("reach", 3)).steps == 3
+    np.testing.assert_allclose(robot.times, [0.001, 0.101, 0.201])
+    assert loop_of(model.with_rate(40.0), robot, rate_hz=40.0).run("reach").steps == 80
+
+
+@pytest.mark.parametrize(
+    ("parts", "match"),
+    [
+        ((), "nothing to play"),
+        (("rech",), "unknown initial state 'rech'; did you mean 'reach'"),
+        ((Part("reach", 0),), "motion 'reach' must be played for 1 step or more, got 0"),
+        ((Part(np.zeros(12)),), "a motion: the model does not tell how long it is; give its steps"),
+        ((Part("reach", blend=5),), "'reach' is the first: it has none before it"),
+        (("reach", Part("wave", 5, blend=6)), "its blend must be 0 to its 5 steps, got 6"),
+        (("reach", Part(np.zeros(3), 5)), r"one value per unit \(12\), got shape \(3,\)"),
+    ],
+)
+def test_parts_that_cannot_be_played_are_refused_before_anything_is_sent(
+    model, robot, parts, match
+):
+    with pytest.raises(ControlError, match=match):
+        loop_of(model, robot).run(*parts)
+    assert (robot.sent, robot.stops) == ([], 0)
