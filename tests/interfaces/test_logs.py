@@ -123,8 +123,9 @@ def test_several_logs_are_written_side_by_side(tmp_path):
 def test_a_recording_that_is_not_one_is_told(tmp_path):
     (tmp_path / "robot.rrd").write_bytes(b"not a recording")
 
+    logs = open_logs(["rerun"], tmp_path / "robot.safetensors", after=100)
     with pytest.raises(StorageError, match=r"robot\.rrd.*move it away"):
-        open_logs(["rerun"], tmp_path / "robot.safetensors", after=100)
+        logs.write(200, {"loss": 0.5})
 
 
 def test_an_unknown_log_is_told(tmp_path):

@@ -64,7 +64,7 @@ def test_what_is_not_there_or_of_no_format_is_refused(tmp_path):
 def test_a_format_that_is_unknown_or_not_told_is_refused(whole, tmp_path):
     with pytest.raises(SettingError, match=r"unknown format 'lerobt'; did you mean 'lerobot'\?"):
         write(tmp_path / "out", whole, "lerobt")
-    with pytest.raises(SettingError, match=r"out: its name does not tell the format; name it with"):
+    with pytest.raises(SettingError, match=r"out: its name does not tell the format; end it in"):
         write(tmp_path / "out", whole)
     write(tmp_path / "out.npz", whole)
     with pytest.raises(SettingError, match="episode names a column of csv; this is npz"):

@@ -9,9 +9,8 @@ from rich.console import Console
 from motionese.errors import SettingError, unknown
 from motionese.interfaces.initial_states import read_initial_states
 from motionese.interfaces.motion_figure import write_figure
+from motionese.interfaces.outputs import PICTURES, RECORDINGS, check_output
 from motionese.learning import Fit, Motions, generate_sequence, load, placed
-
-PICTURES = (".svg", ".png")
 
 
 def generate_motion(
@@ -39,7 +38,10 @@ def generate_motion(
         blend: Rows of a transition between motions; found for None.
         out: Recording or picture to write, by its suffix.
     """
+    check_output("--out", out, (*RECORDINGS, *PICTURES))
     fit = load(model)
+    # Refuses a scale before rows are counted with it.
+    fit.network.lasting(duration)
     known = (
         {n: (u, t) for n, u, t in zip(fit.names, fit.initial_states, fit.lengths, strict=True)}
         if initial is None
@@ -55,7 +57,7 @@ def generate_motion(
     path = generate_sequence(fit.network, states, rows, blend=blend, duration=duration)
     assert fit.network.channels is not None, "a trained network carries channels"
     motion = Motions.from_arrays([path], fit.network.channels, fit.rate_hz, names=[names])
-    if out.suffix in PICTURES:
+    if out.suffix.lower() in PICTURES:
         labels = [(c.name, c.unit) for c in fit.network.channels]
         write_figure(out, [path], [names], labels, fit.rate_hz, f"{model.name}: {names}")
     else:

@@ -13,6 +13,8 @@ from motionese.files import write_whole
 from motionese.network import MTRNN
 
 FORMAT, VERSION = "motionese-initial-states", 1
+MOST_ROWS = 1_000_000
+"""Of one motion: beyond it, no memory holds what a network computes."""
 
 
 def write_initial_states(
@@ -44,7 +46,7 @@ def read_initial_states(path: Path, network: MTRNN) -> dict[str, tuple[Float[nda
         content = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise StorageError(f"{path}: there is no such file") from error
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise StorageError(f"{path}: not a readable file of initial states") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise StorageError(f"{path}: not a file of initial states; motionese recognise writes them")
@@ -58,14 +60,16 @@ def read_initial_states(path: Path, network: MTRNN) -> dict[str, tuple[Float[nda
             str(name): (np.array(one["initial_state"], dtype=np.float64), int(one["rows"]))
             for name, one in content["motions"].items()
         }
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise StorageError(f"{path}: its initial states are incomplete") from error
     for name, (state, rows) in states.items():
-        if state.shape != (network.size,) or not np.isfinite(state).all() or rows < 2:
+        if state.shape != (network.size,) or not np.isfinite(state.astype(np.float32)).all():
             raise StorageError(
                 f"{path}: motion '{name}' needs {network.size} finite numbers, one per unit of "
-                f"the model, and at least 2 rows; got {state.size} and {rows}"
+                f"the model, got {state.size}; was it recognised with another model?"
             )
+        if not 2 <= rows <= MOST_ROWS:
+            raise StorageError(f"{path}: motion '{name}' has {rows} rows; 2 to {MOST_ROWS} can be")
     if not states:
         raise StorageError(f"{path}: holds no motion")
     return states

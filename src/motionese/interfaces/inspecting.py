@@ -7,9 +7,9 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from motionese.errors import SettingError
 from motionese.interfaces.motion_figure import write_figure
 from motionese.interfaces.number_table import number_table
+from motionese.interfaces.outputs import PICTURES, check_output
 from motionese.recordings import Recording, Survey, choose, chosen, read, survey
 
 MOST_EPISODES = 40
@@ -37,10 +37,9 @@ def inspect_recordings(
         exclude: Channels to leave out.
         rate_hz: Rows per second, where the recording does not tell.
     """
-    if plot.suffix not in (".svg", ".png"):
-        raise SettingError(f"--plot {plot}: a plot is written as .svg or .png")
-    found = read(source, **columns)
-    found = chosen(found, choose(channels=channels, exclude=exclude))
+    check_output("--plot", plot, PICTURES)
+    choice = choose(channels=channels, exclude=exclude, rate_hz=rate_hz)
+    found = chosen(read(source, **columns), choice)
     numbers = survey(found)
     rate = numbers.rate_hz or rate_hz
     console.print(_heading(found, numbers, rate))

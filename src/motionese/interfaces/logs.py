@@ -9,6 +9,7 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import TracebackType
@@ -31,13 +32,24 @@ class Log(Protocol):
 
 
 class Logs:
-    """Several logs written side by side; a context manager that closes them."""
+    """Several logs written side by side; a context manager that closes them.
 
-    def __init__(self, logs: Sequence[Log]) -> None:
-        self._logs = tuple(logs)
+    They are opened with the first numbers: a training that is refused leaves none, and none of a
+    training before it is lost.
+    """
+
+    def __init__(self, openers: Sequence[Callable[[], Log]]) -> None:
+        self._openers = list(openers)
+        self._logs: list[Log] = []
 
     def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
-        """Write numbers by name to every log, as they are after `epoch` epochs."""
+        """Write numbers by name to every log, as they are after `epoch` epochs.
+
+        Raises:
+            StorageError: A log that cannot be gone on with.
+        """
+        while self._openers:
+            self._logs.append(self._openers.pop(0)())
         for log in self._logs:
             log.write(epoch, numbers)
 
@@ -60,7 +72,7 @@ class Logs:
 
 
 def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
-    """Open the logs of a training.
+    """Return the logs of a training, whose files are opened with the first numbers.
 
     Args:
         kinds: Of `jsonl`, `tensorboard` (extra `[tensorboard]`) and `rerun` (extra `[rerun]`).
@@ -70,8 +82,7 @@ def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
 
     Raises:
         SettingError: An unknown kind.
-        MissingPackageError: A kind's package is not installed; nothing was written then.
-        StorageError: A log that cannot be gone on with.
+        MissingPackageError: A kind's package is not installed.
     """
     for kind in kinds:
         if kind not in _OPENERS:
@@ -79,7 +90,7 @@ def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
     for kind in kinds:
         if kind in _PACKAGES:
             _import(*_PACKAGES[kind], kind)
-    return Logs([_OPENERS[kind](out, after) for kind in dict.fromkeys(kinds)])
+    return Logs([partial(_OPENERS[kind], out, after) for kind in dict.fromkeys(kinds)])
 
 
 class JsonLines:

@@ -14,6 +14,8 @@ from motionese.one_core import one_core
 
 Model = Annotated[Path, typer.Argument(metavar="MODEL", help="A model that `train` wrote.")]
 
+LARGEST_SEED = 2**32 - 1
+
 
 def add_to(app: typer.Typer) -> None:
     """Add these commands to the command line."""
@@ -39,7 +41,9 @@ def train(
         int | None,
         typer.Option(min=0, metavar="EPOCHS", help="Stop early when the loss no longer falls."),
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of weights, held-out motions, noise.")] = 0,
+    seed: Annotated[
+        int, typer.Option(min=0, max=LARGEST_SEED, help="Of weights, held-out motions, noise.")
+    ] = 0,
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a training that was stopped.")
     ] = False,
@@ -103,7 +107,7 @@ def recognise(
     initial: Annotated[
         Path | None, typer.Option(metavar="FILE.json", help="Write the initial states.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random starts.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, max=LARGEST_SEED, help="Of the random starts.")] = 0,
     channels: options.Channels = None,
     exclude: options.Exclude = None,
     format: options.Format = None,
@@ -147,7 +151,8 @@ def generate(
         Path | None, typer.Option(metavar="FILE.json", help="Initial states from `recognise`.")
     ] = None,
     steps: Annotated[
-        int | None, typer.Option(min=2, help="Rows a motion; default: as it was, scaled.")
+        int | None,
+        typer.Option(min=2, max=1_000_000, help="Rows a motion; default: as it was, scaled."),
     ] = None,
     duration_scale: Annotated[
         float, typer.Option(metavar="SCALE", help="How many times as long: 0.5 to 2.")

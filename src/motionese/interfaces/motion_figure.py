@@ -33,7 +33,7 @@ def write_figure(
     """Draw motions and write the figure as SVG or PNG.
 
     Args:
-        path: The file to write; its suffix says as what.
+        path: The file to write; PNG if it ends so, else SVG.
         paths: The motions; NaN where nothing was observed. [T_i, D]
         names: Their names.
         channels: Name and unit of every channel.
@@ -41,14 +41,13 @@ def write_figure(
         title: What is drawn.
 
     Raises:
-        StorageError: A suffix other than .svg or .png, or a file that cannot be written.
+        StorageError: A file that cannot be written.
     """
-    if path.suffix not in (".svg", ".png"):
-        raise StorageError(f"{path}: a figure is written as .svg or .png")
-    with rc_context(SETTINGS):
+    # Names are what they are, dollars included.
+    with rc_context({**SETTINGS, "text.parse_math": False}):
         drawn = finished(_figure(paths, names, channels[:MOST], rate_hz, title), "motions")
     try:
-        write_whole(path, drawn.svg if path.suffix == ".svg" else drawn.png)
+        write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
     except OSError as error:
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
 

@@ -11,10 +11,10 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from motionese.errors import SettingError
 from motionese.interfaces.initial_states import write_initial_states
 from motionese.interfaces.model_motions import names_matching, read_for
 from motionese.interfaces.number_table import number_table
+from motionese.interfaces.outputs import RECORDINGS, check_output
 from motionese.learning import Fit, Found, Motions, load, recognise_all
 
 
@@ -43,10 +43,12 @@ def recognise_motions(
         columns: Format, episode and time column, as `Motions.read` takes them.
         choice: What else `Motions.read` takes.
     """
+    if initial is not None:
+        check_output("--initial", initial, (".json",))
+    if out is not None:
+        check_output("--out", out, RECORDINGS)
     fit = load(model)
     assert fit.network.channels is not None, "a trained network carries channels"
-    if initial is not None and initial.suffix != ".json":
-        raise SettingError(f"--initial {initial}: a file of initial states ends in .json")
     names = fit.network.channels.names
     seen = list(names) if observed is None else names_matching(fit.network.channels, observed)
     motions = read_for(fit, source, columns=columns, choice=choice, needed=seen)
@@ -70,7 +72,11 @@ def _recognised(console: Console, fit: Fit, motions: Motions, key: Array) -> lis
     """Recognise motions one by one, padded to one length so that they share compiled code."""
     keys, size = jax.random.split(key, len(motions)), (1, max(motions.lengths))
     shown = track(
-        list(zip(motions, keys, strict=True)), "Recognising", console=console, transient=True
+        list(zip(motions, keys, strict=True)),
+        "Recognising",
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
     )
     return [recognise_all(fit, one, key=its, padded_to=size)[0] for one, its in shown]
 

@@ -13,6 +13,7 @@ from motionese.interfaces.held_out import split
 from motionese.interfaces.importing import told
 from motionese.interfaces.level_text import read_levels
 from motionese.interfaces.logs import open_logs
+from motionese.interfaces.outputs import check_output
 from motionese.interfaces.training_display import TrainingDisplay
 from motionese.interfaces.training_table import channel_table, verdict
 from motionese.learning import Fit, Motions, Progress, Training, save, train
@@ -20,6 +21,8 @@ from motionese.learning.course import epochs_done
 from motionese.network import MTRNN, Level
 
 SUFFIX = ".safetensors"
+BY_LEVEL = ("bound", "noise")
+"""Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
 
 
 def train_model(
@@ -108,10 +111,7 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         name, _, told = text.partition("=")
         if name not in Training.model_fields:
             raise SettingError(unknown("setting", name, Training.model_fields))
-        level = {}
-        if name in ("bound", "noise") and ":" in told:
-            level = dict(part.split(":", 1) for part in told.split(","))
-        given[name] = level or told
+        given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
     try:
         return Training(**given)
     except ValidationError as error:
@@ -121,12 +121,15 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         raise SettingError(f"setting {name} = {given[name]!r}: {what}") from error
 
 
+def _by_level(told: str) -> dict[str, str]:
+    """Return the values of a text such as 'cf:5,cs:2' by level."""
+    parts = (part.partition(":") for part in told.split(","))
+    return {level: value for level, _, value in parts}
+
+
 def _checkpoint(out: Path, resume: bool) -> Path:
     """Return where training is kept, after checking that it may be begun, or gone on with."""
-    if out.suffix != SUFFIX:
-        raise SettingError(f"--out {out}: a model's file ends in {SUFFIX}")
-    if not out.absolute().parent.is_dir():
-        raise StorageError(f"--out {out}: there is no folder {out.parent}")
+    check_output("--out", out, (SUFFIX,))
     checkpoint = out.with_suffix(".checkpoint")
     if resume and not checkpoint.exists():
         ended = "; it has ended, the model is there" if out.exists() else ""

@@ -67,4 +67,4 @@ def _told(progress: Progress) -> str:
     ]
     if progress.validation_error is not None:
         parts.append(f"held out {progress.validation_error:.1%}")
-    return ", ".join(parts)
+    return f"{', '.join(parts)} of range"

@@ -1,13 +1,17 @@
 """A fit on disk: the network, the initial states it learned, and how training ended."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from numpy import ndarray
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import StorageError, unknown
 from motionese.learning.fit import Fit
 from motionese.learning.status import Ending, Status
-from motionese.network import read_network, write_network
+from motionese.network import MTRNN, read_network, write_network
 
 ARRAYS = (
     "initial_states",
@@ -17,7 +21,19 @@ ARRAYS = (
     "closed_loop_error",
     "validation_error",
 )
-FACTS = ("names", "lengths", "rate_hz", "validation_names", "status", "sentence")
+
+
+class _Facts(BaseModel):
+    """What a fit tells beside its arrays, as a file holds it."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore")
+
+    names: tuple[str, ...]
+    lengths: tuple[Annotated[int, Field(ge=2)], ...]
+    rate_hz: Annotated[float, Field(gt=0, allow_inf_nan=False)]
+    validation_names: tuple[str, ...]
+    status: str
+    sentence: str
 
 
 def save(path: str | Path, fit: Fit) -> None:
@@ -36,26 +52,44 @@ def save(path: str | Path, fit: Fit) -> None:
 
 def load(path: str | Path) -> Fit:
     """Read what `save` wrote; `StorageError` if the file is not a fit, or cut short."""
-    network, arrays, facts = read_network(Path(path))
+    network, arrays, told = read_network(Path(path))
     missing = [name for name in ARRAYS if name not in arrays]
-    missing += [name for name in FACTS if name not in facts]
+    missing += [name for name in _Facts.model_fields if name not in told]
+    missing += ["channels"] if network.channels is None else []
     if missing:
         raise StorageError(f"{path}: a network without a fit; {', '.join(missing)} missing")
+    try:
+        facts = _Facts(**told)
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise StorageError(f"{path}: its {first['loc'][0]}: {first['msg']}") from error
     endings = [ending.value for ending in Ending]
-    if facts["status"] not in endings:
-        raise StorageError(f"{path}: {unknown('status', facts['status'], endings)}")
-    states = arrays["initial_states"]
-    if states.shape != (len(facts["names"]), network.size):
-        raise StorageError(
-            f"{path}: initial_states must have shape {(len(facts['names']), network.size)}, "
-            f"got {states.shape}"
-        )
+    if facts.status not in endings:
+        raise StorageError(f"{path}: {unknown('status', facts.status, endings)}")
+    _check_shapes(Path(path), network, arrays, facts)
     return Fit(
         network=network,
-        names=tuple(facts["names"]),
-        lengths=tuple(facts["lengths"]),
-        rate_hz=float(facts["rate_hz"]),
-        validation_names=tuple(facts["validation_names"]),
-        status=Status(Ending(facts["status"]), facts["sentence"]),
+        names=facts.names,
+        lengths=facts.lengths,
+        rate_hz=facts.rate_hz,
+        validation_names=facts.validation_names,
+        status=Status(Ending(facts.status), facts.sentence),
         **{name: arrays[name] for name in ARRAYS},
     )
+
+
+def _check_shapes(path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: _Facts) -> None:
+    """Refuse arrays that do not belong to so many motions over so many channels."""
+    learned, held_out = len(facts.names), len(facts.validation_names)
+    shapes = {
+        "initial_states": (learned, network.size),
+        "teacher_forced_error": (learned, network.io_size),
+        "closed_loop_error": (learned, network.io_size),
+        "validation_error": (held_out, network.io_size),
+    }
+    got = {name: arrays[name].shape for name in shapes} | {"lengths": (len(facts.lengths),)}
+    for name, shape in {**shapes, "lengths": (learned,)}.items():
+        if got[name] != shape:
+            raise StorageError(f"{path}: {name} must have shape {shape}, got {got[name]}")
+    if not learned or not np.isfinite(arrays["initial_states"]).all():
+        raise StorageError(f"{path}: initial_states must be those of a motion at least, and finite")

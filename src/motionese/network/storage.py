@@ -26,7 +26,11 @@ FORMAT, VERSION = "motionese-mtrnn", 1
 def write_network(
     path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: Mapping[str, Any]
 ) -> None:
-    """Write a network together with further arrays and JSON-able facts, whole or not at all."""
+    """Write a network together with further arrays and JSON-able facts, whole or not at all.
+
+    Raises:
+        StorageError: It cannot be written there.
+    """
     structure = {
         "format": FORMAT,
         "version": VERSION,
@@ -41,7 +45,10 @@ def write_network(
     }
     own = {"weights": network.weights, "bias": network.bias, "tau": network.tau}
     tensors = {name: np.ascontiguousarray(value) for name, value in {**own, **arrays}.items()}
-    write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
+    try:
+        write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]:
@@ -95,7 +102,7 @@ def _contents(path: Path) -> tuple[dict[str, Any], dict[str, ndarray]]:
             metadata = file.metadata() or {}
             tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
         structure = json.loads(metadata.get("motionese", "null"))
-    except (safetensors.SafetensorError, json.JSONDecodeError, OSError) as error:
+    except (safetensors.SafetensorError, ValueError, RecursionError, OSError) as error:
         raise StorageError(f"{path}: not a readable model file, perhaps cut short") from error
     if not isinstance(structure, dict) or structure.get("format") != FORMAT:
         raise StorageError(f"{path}: not a model of motionese")

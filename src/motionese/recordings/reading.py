@@ -111,8 +111,9 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     name = _known(format) if format is not None else _by_suffix(path)
     if name is None:
         raise SettingError(
-            f"{path}: its name does not tell the format; name it with --format: "
-            f"{', '.join(FORMATS)}"
+            f"{path}: its name does not tell the format; end it in "
+            f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
+            f"or name one of {', '.join(FORMATS)}"
         )
     _check(recording)
     FORMATS[name].write(path, recording)
