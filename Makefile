@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c const
 READY := $(VENV)/.ready
 TOOLS := $(VENV)/.tools
 
-.PHONY: reproduce test test-all lint docs benchmarks clean
+.PHONY: reproduce test test-all lint docs benchmarks page-vendor clean
 
 reproduce:
 	@echo "The report will be at $(OUT)/report.html"
@@ -33,6 +33,10 @@ docs: $(TOOLS)
 benchmarks: $(TOOLS)
 	@$(PIP) -e ".[dev,benchmarks]"
 	@for file in benchmarks/*.py; do $(BIN)/python $$file || exit 1; done
+
+# What the page of `motionese teach` takes from others, built anew (needs node; nothing else does).
+page-vendor:
+	@src/motionese/interfaces/teach/page/vendor/build.sh
 
 $(READY): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

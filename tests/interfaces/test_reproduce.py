@@ -17,7 +17,8 @@ def pretend(monkeypatch):
     def pretended(status="finished", failures=(), too_few=""):
         reported = []
 
-        def go_through_all(runs, settings, workers, *, loop_done, run_ended):
+        def go_through_all(runs, settings, workers, *, caregiver, loop_done, run_ended):
+            assert caregiver is None, "the scripted one"
             for run in runs:
                 loop_done(run, 0)
                 if status:

@@ -15,8 +15,16 @@ from motionese.body.actroid import CHANNELS, PRESSED_MM, Actroid
 from motionese.body.arm import COMMAND_RANGE
 from motionese.body.film import pictures
 from motionese.body.gaze import EYE_POSITION, bearing
+from motionese.body.geometry import Geometry
 from motionese.body.protocol import Body
-from motionese.body.reach import CORNER_POSTURES, CORNERS, arm_reaching, marker_at, projected
+from motionese.body.reach import (
+    CORNER_POSTURES,
+    CORNERS,
+    arm_reaching,
+    marker_at,
+    on_reach,
+    projected,
+)
 from motionese.body.settings import BodySettings
 
 __all__ = [
@@ -29,9 +37,11 @@ __all__ = [
     "Actroid",
     "Body",
     "BodySettings",
+    "Geometry",
     "arm_reaching",
     "bearing",
     "marker_at",
+    "on_reach",
     "pictures",
     "projected",
 ]

@@ -41,6 +41,18 @@ def projected(path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
     return reached
 
 
+def on_reach(
+    origin: Float[ndarray, "3"], rays: Float[ndarray, "*shape 3"]
+) -> Float[ndarray, "*shape 3"]:
+    """Return where rays from a point inside the surface that the marker moves on meet it [m]."""
+    along = rays / np.linalg.norm(rays, axis=-1, keepdims=True)
+    inside = np.asarray(origin) - SHOULDER
+    half = along @ inside
+    distance = -half + np.sqrt(half**2 + REACH_M**2 - inside @ inside)
+    met: Float[ndarray, "*shape 3"] = origin + distance[..., None] * along
+    return met
+
+
 def arm_reaching(
     position: Float[ndarray, "3"], *, tolerance_m: float = 0.01, name: str = "the position"
 ) -> Float[ndarray, "2"]:

@@ -98,13 +98,24 @@ class ScriptedCaregiver:
 class RecordedCaregiver:
     """Recorded demonstrations in the place of the scripted caregiver."""
 
-    def __init__(self, recordings: Mapping[str, list[Float[ndarray, "_ 3"]]]) -> None:
-        """Take recorded paths [m, world] by motion name, at the body's rate."""
-        self.recordings = dict(recordings)
+    def __init__(
+        self,
+        recordings: Mapping[str, list[Float[ndarray, "_ 3"]]],
+        otherwise: Caregiver | None = None,
+    ) -> None:
+        """Take recorded paths [m, world] by motion name, at the body's rate.
+
+        Args:
+            recordings: The paths.
+            otherwise: Who shows what was not recorded.
+        """
+        self.recordings, self.otherwise = dict(recordings), otherwise
 
     def demonstrate(self, motion: Motion, rng: np.random.Generator) -> Float[ndarray, "T 3"]:
-        """Return one of the motion's recordings; `TaskError` if there is none."""
+        """Return one of the motion's recordings; `TaskError` if nobody can show it."""
         paths = self.recordings.get(motion.name)
+        if not paths and self.otherwise is not None:
+            return self.otherwise.demonstrate(motion, rng)
         if not paths:
             raise TaskError(unknown("recorded motion", motion.name, self.recordings))
         return np.asarray(paths[int(rng.integers(len(paths)))])

@@ -42,16 +42,8 @@ def checkpoint_path(folder: Path, loop: int) -> Path:
 
 def write_checkpoint(folder: Path, checkpoint: Checkpoint) -> None:
     """Write a checkpoint, whole or not at all."""
-    learner = checkpoint.learner
-    facts: dict[str, Any] = {
-        name: value for name, value in vars(checkpoint).items() if name != "learner"
-    }
-    facts["experiences"] = [{"loop": e.loop, "motion": e.motion} for e in learner.experiences]
-    arrays = {}
-    for i, experience in enumerate(learner.experiences):
-        arrays[f"values.{i}"] = experience.values
-        arrays[f"initial_state.{i}"] = np.asarray(experience.initial_state)
-    write_network(checkpoint_path(folder, checkpoint.loop), learner.network, arrays, facts)
+    facts = {name: value for name, value in vars(checkpoint).items() if name != "learner"}
+    write_learner(checkpoint_path(folder, checkpoint.loop), checkpoint.learner, facts)
 
 
 def read_checkpoint(path: Path, origin: str) -> Checkpoint:
@@ -59,6 +51,38 @@ def read_checkpoint(path: Path, origin: str) -> Checkpoint:
 
     Raises:
         StorageError: It is cut short, not one of ours, or of another loop, run or other settings.
+    """
+    learner, facts = read_learner(path)
+    try:
+        checkpoint = Checkpoint(learner=learner, **facts)
+    except TypeError as error:
+        raise StorageError(f"{path}: a model, but not a checkpoint of an experiment") from error
+    if checkpoint.origin != origin or path.name != checkpoint_path(path, checkpoint.loop).name:
+        raise StorageError(
+            f"{path}: a checkpoint of loop {checkpoint.loop} of {checkpoint.origin}, "
+            f"where one of {origin} should be"
+        )
+    return checkpoint
+
+
+def write_learner(path: Path, learner: Learner, facts: dict[str, Any]) -> None:
+    """Write what a robot has become, and JSON-able facts, whole or not at all."""
+    told = {
+        **facts,
+        "experiences": [{"loop": e.loop, "motion": e.motion} for e in learner.experiences],
+    }
+    arrays = {}
+    for i, experience in enumerate(learner.experiences):
+        arrays[f"values.{i}"] = experience.values
+        arrays[f"initial_state.{i}"] = np.asarray(experience.initial_state)
+    write_network(path, learner.network, arrays, told)
+
+
+def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
+    """Read what `write_learner` wrote.
+
+    Raises:
+        StorageError: It is cut short, or not one of ours.
     """
     network, arrays, facts = read_network(path)
     try:
@@ -71,19 +95,13 @@ def read_checkpoint(path: Path, origin: str) -> Checkpoint:
             )
             for i, each in enumerate(facts.pop("experiences"))
         )
-        checkpoint = Checkpoint(learner=Learner(network, experiences), **facts)
     except (KeyError, TypeError) as error:
         raise StorageError(f"{path}: a model, but not a checkpoint of an experiment") from error
-    if checkpoint.origin != origin or path.name != checkpoint_path(path, checkpoint.loop).name:
-        raise StorageError(
-            f"{path}: a checkpoint of loop {checkpoint.loop} of {checkpoint.origin}, "
-            f"where one of {origin} should be"
-        )
     for experience in experiences:
         fits = experience.initial_state.shape == (network.size,)
         if not (fits and np.isfinite(experience.initial_state).all()):
             raise StorageError(f"{path}: initial states that do not fit its network")
-    return checkpoint
+    return Learner(network, experiences), facts
 
 
 def latest_checkpoint(folder: Path, origin: str) -> Checkpoint | None:

@@ -15,6 +15,7 @@ from motionese.experiment.imitation_loop import Imitated, Row, imitate
 from motionese.experiment.learner import Learner
 from motionese.experiment.scene import Scene
 from motionese.learning import activity, generate
+from motionese.network import MTRNN
 
 NEW_MOTIONS = PUSHING_BUTTONS.sequences(3)
 Lessons = tuple[tuple[Motion, ...], ...]
@@ -64,26 +65,62 @@ def map_slow_states(scene: Scene, learner: Learner) -> list[Row]:
     Returns:
         A row per primitive and grid point; none where there is no slow level of two units.
     """
-    network, settings = learner.network, scene.settings.evaluation
-    names = [level.name for level in network.levels]
-    if SLOW not in names or network.levels[names.index(SLOW)].size < 2:
+    if not has_slow_map(learner.network):
         return []
-    first_two = range(*network.units(SLOW).indices(network.size))[:2]
-    axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
-    grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
+    settings = scene.settings.evaluation
     rows: list[Row] = []
     for each in imitate(scene, learner, PRIMITIVES, settings.recognition, "map"):
-        states = np.repeat(each.found.initial_state[None], len(grid), axis=0)
-        states[:, first_two] = grid
-        length = scene.settings.caregiver.rows(each.motion)
-        first = np.repeat(scene.as_own(each.motion, each.watched)[:1], len(grid), axis=0)
-        seen = bearing(generate(network, states, 2 * length, first=first))
-        segments = [_strokes(seen, 0, length - 1), _strokes(seen, length - 1, 2 * length - 1)]
-        for point, *strokes in zip(grid, *segments, strict=True):
-            row: Row = {"primitive": each.motion.name, "cs_1": point[0], "cs_2": point[1]}
-            for number, (direction, extent) in enumerate(strokes, start=1):
-                row |= {f"direction_{number}_rad": direction, f"extent_{number}_rad": extent}
-            rows.append(row)
+        first = scene.as_own(each.motion, each.watched)[0]
+        rows += slow_map_of(scene, learner.network, each.motion, each.found.initial_state, first)
+    return rows
+
+
+def has_slow_map(network: MTRNN) -> bool:
+    """Whether a network has a slow level of at least two units."""
+    sizes = {level.name: level.size for level in network.levels}
+    return sizes.get(SLOW, 0) >= 2
+
+
+def with_slow_state(
+    network: MTRNN, state: Float[ndarray, " N"], slow: Float[ndarray, "*shape 2"]
+) -> Float[ndarray, "*shape N"]:
+    """Return initial states whose first two slow units are set to given values."""
+    first_two = range(*network.units(SLOW).indices(network.size))[:2]
+    states = np.broadcast_to(state, (*slow.shape[:-1], network.size)).copy()
+    states[..., first_two] = slow
+    return states
+
+
+def slow_map_of(
+    scene: Scene,
+    network: MTRNN,
+    primitive: Motion,
+    state: Float[ndarray, " N"],
+    first: Float[ndarray, "6"],
+) -> list[Row]:
+    """Return the map's rows of one primitive.
+
+    Args:
+        scene: Robot and caregiver.
+        network: The robot's network.
+        primitive: Whose map it is.
+        state: The primitive's initial state, whose Cf_0 is held.
+        first: The first row of a demonstration, as the own body would sense it.
+    """
+    settings = scene.settings.evaluation
+    axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
+    grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
+    length = scene.settings.caregiver.rows(primitive)
+    states = with_slow_state(network, state, grid)
+    firsts = np.repeat(first[None], len(grid), axis=0)
+    seen = bearing(generate(network, states, 2 * length, first=firsts))
+    segments = [_strokes(seen, 0, length - 1), _strokes(seen, length - 1, 2 * length - 1)]
+    rows = []
+    for point, *strokes in zip(grid, *segments, strict=True):
+        row: Row = {"primitive": primitive.name, "cs_1": point[0], "cs_2": point[1]}
+        for number, (direction, extent) in enumerate(strokes, start=1):
+            row |= {f"direction_{number}_rad": direction, f"extent_{number}_rad": extent}
+        rows.append(row)
     return rows
 
 

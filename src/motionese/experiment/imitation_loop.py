@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
 
 from motionese.caregiver import Motion
 from motionese.experiment.keys import key_for
@@ -68,15 +70,10 @@ def imitate(
     *occasion: str | int,
 ) -> list[Imitated]:
     """Take steps 1 to 3 with some motions; nothing is learned."""
-    network, channels = learner.network, scene.body.channels
+    network = learner.network
     watched = [scene.show(motion, *occasion) for motion in motions]  # step 1
     values = [scene.as_own(m, w) for m, w in zip(motions, watched, strict=True)]
-    masks = [np.ones(value.shape, dtype=bool) for value in values]
-    for mask in masks:
-        mask[1:, ARM] = False
-    seen = Motions.from_arrays(
-        values, channels, scene.body.rate_hz, observed=masks, names=[m.name for m in motions]
-    )
+    seen = shown_as(scene, values, names=[m.name for m in motions])
     starts = np.array([learner.start_for(motion) for motion in motions])[:, None]
     found = recognise_all(  # step 2
         network,
@@ -90,6 +87,30 @@ def imitate(
         for motion, f, value in zip(motions, found, values, strict=True)
     ]
     return [Imitated(*each) for each in zip(motions, watched, found, performed, strict=True)]
+
+
+def shown_as(
+    scene: Scene,
+    values: Sequence[Float[ndarray, "_ 6"]],
+    *,
+    own_arm: bool = True,
+    names: Sequence[str] | None = None,
+) -> Motions:
+    """Return what is recognised of demonstrations: neck and hand, and of the arm the first row.
+
+    Args:
+        scene: Robot and caregiver.
+        values: The channels' values of every demonstration.
+        own_arm: Whether the first row's arm is where the own one will start from; if not, as
+            when a demonstration is looked at from its middle on, the arm is not known at all.
+        names: The demonstrations' names.
+    """
+    masks = [np.ones(value.shape, dtype=bool) for value in values]
+    for mask in masks:
+        mask[int(own_arm) :, ARM] = False
+    return Motions.from_arrays(
+        values, scene.body.channels, scene.body.rate_hz, observed=masks, names=names
+    )
 
 
 def imitation_loop(

@@ -12,6 +12,7 @@ import dask
 from distributed import Client, Future, LocalCluster, as_completed, get_worker
 from distributed.scheduler import KilledWorker
 
+from motionese.caregiver import Caregiver
 from motionese.errors import MotioneseError, StorageError
 from motionese.experiment.run import Run, go_through
 from motionese.experiment.settings import Settings
@@ -30,6 +31,7 @@ def go_through_all(
     settings: Settings,
     workers: int,
     *,
+    caregiver: Caregiver | None = None,
     loop_done: Callable[[Run, int], None],
     run_ended: Callable[[Run, str], None],
 ) -> list[str]:
@@ -39,6 +41,7 @@ def go_through_all(
         runs: The runs; those that are finished cost nothing.
         settings: All settings.
         workers: How many runs at once, each in a process of its own.
+        caregiver: Who shows the motions; the scripted caregiver if left out.
         loop_done: Called with a run and its last whole loop, also when it begins.
         run_ended: Called with a run and why it could not go on, or "".
 
@@ -55,7 +58,7 @@ def go_through_all(
         def begin() -> list[Future]:
             """Hand the next run to a worker, if one is left."""
             return [
-                client.submit(_go_through, run, settings, key=run.name, pure=False)
+                client.submit(_go_through, run, settings, caregiver, key=run.name, pure=False)
                 for run in islice(waiting, 1)
             ]
 
@@ -84,7 +87,7 @@ def longest_first(runs: Sequence[Run], settings: Settings) -> list[Run]:
     return sorted((run for run in runs if not run.ended()), key=key)
 
 
-def _go_through(run: Run, settings: Settings) -> str:
+def _go_through(run: Run, settings: Settings, caregiver: Caregiver | None) -> str:
     """Do a run in a worker; return why it cannot go on, or ""."""
 
     def told(loop: int) -> None:
@@ -92,7 +95,7 @@ def _go_through(run: Run, settings: Settings) -> str:
 
     told(run.loops_done())
     try:
-        go_through(run, settings, told)
+        go_through(run, settings, told, caregiver)
     except StorageError as error:
         return (
             f"{error}; remove it and the checkpoints of later loops, and the same command goes on "

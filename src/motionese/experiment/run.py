@@ -40,11 +40,19 @@ ENDED = "ended.json"
 
 @dataclass(frozen=True)
 class Run:
-    """A condition with a seed, and the folder it is kept in."""
+    """A condition with a seed, the folder it is kept in, and whose demonstrations it is shown.
+
+    Attributes:
+        condition: The condition.
+        seed: The seed.
+        folder: The folder.
+        shown: A digest of recorded demonstrations; empty for the scripted caregiver.
+    """
 
     condition: Condition
     seed: int
     folder: Path
+    shown: str = ""
 
     @property
     def name(self) -> str:
@@ -54,7 +62,8 @@ class Run:
     def origin(self, settings: Settings) -> str:
         """Return what its checkpoints are marked with: the run, and a digest of its settings."""
         text = json.dumps(settings.model_dump(mode="json"), sort_keys=True)
-        return f"{self.name}, settings {hashlib.sha256(text.encode()).hexdigest()[:12]}"
+        shown = f", demonstrations {self.shown}" if self.shown else ""
+        return f"{self.name}, settings {hashlib.sha256(text.encode()).hexdigest()[:12]}{shown}"
 
     def loops_done(self) -> int:
         """Return the number of its last whole loop, 0 before the first."""
@@ -112,7 +121,7 @@ def _next_loop(run: Run, scene: Scene, before: Checkpoint | None) -> Checkpoint:
     began = time.perf_counter()
     settings = scene.settings
     loop = before.loop + 1 if before else 1
-    learner = before.learner if before else _born(run, scene)
+    learner = before.learner if before else born(run.condition, scene)
     phase = 1 if loop <= settings.phases.change_after else 2
     if loop == settings.phases.change_after + 1:
         while len(learner.network.levels) < len(settings.network.levels):
@@ -152,10 +161,10 @@ def newborn(condition: Condition, scene: Scene) -> MTRNN:
     )
 
 
-def _born(run: Run, scene: Scene) -> Learner:
+def born(condition: Condition, scene: Scene) -> Learner:
     """Draw the network, and let it learn from babbling."""
     settings = scene.settings
-    network = newborn(run.condition, scene)
+    network = newborn(condition, scene)
     learner = Learner(network)
     if not settings.babbling.movements:
         return learner

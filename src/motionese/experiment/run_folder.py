@@ -37,24 +37,31 @@ class RunFolder:
     Attributes:
         path: Where it is.
         changed: What it was made with before and is not now, each as 'name: was → now'.
+        shown: A digest of the recorded demonstrations of all its runs; empty for the scripted
+            caregiver.
     """
 
     path: Path
     changed: tuple[str, ...] = ()
+    shown: str = ""
 
     def run(self, condition: Condition, seed: int) -> Run:
         """Return the run of a condition and a seed."""
-        return Run(condition, seed, self.path / condition.folder / f"seed-{seed}")
+        return Run(condition, seed, self.path / condition.folder / f"seed-{seed}", self.shown)
 
 
 @contextmanager
-def open_run_folder(path: Path, settings: Settings, preset: str) -> Iterator[RunFolder]:
+def open_run_folder(
+    path: Path, settings: Settings, preset: str, shown: str = ""
+) -> Iterator[RunFolder]:
     """Make a run folder, or go on with one that has the same settings; others are kept out.
 
     Args:
         path: The folder; it may be missing or empty.
         settings: The settings of all its runs.
         preset: What the settings were made from, for the record.
+        shown: A digest of the recorded demonstrations of all its runs; empty for the scripted
+            caregiver.
 
     Raises:
         RunFolderError: It is in use, not ours, of other settings, or cannot be written to.
@@ -63,24 +70,26 @@ def open_run_folder(path: Path, settings: Settings, preset: str) -> Iterator[Run
         _check_ours(path)
     with _alone(path):
         try:
-            folder = _begun(path, settings, preset)
+            folder = _begun(path, settings, preset, shown)
         except OSError as error:
             raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
         yield folder
 
 
-def _begun(path: Path, settings: Settings, preset: str) -> RunFolder:
+def _begun(path: Path, settings: Settings, preset: str, shown: str) -> RunFolder:
     """Write what stands beside the runs, or check that it is the same."""
     now = settings.model_dump(mode="json")
     if (path / SETTINGS).exists():
         _check_same(path, run_settings(path), now)
+        _check_same_shown(path, shown)
         # What a killed process had not finished writing.
         for part in path.rglob(".*.part"):
             part.unlink()
     else:
         facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
+        facts |= {"demonstrations": shown} if shown else {}
         write_whole(path / SETTINGS, json.dumps(facts, indent=1))
-    return RunFolder(path, _record_environment(path))
+    return RunFolder(path, _record_environment(path), shown)
 
 
 def run_settings(path: Path) -> Facts:
@@ -101,6 +110,11 @@ def run_settings(path: Path) -> Facts:
     if not isinstance(facts.get("settings"), dict):
         raise RunFolderError(f"{path / SETTINGS} holds no settings; it was changed by hand")
     return dict(facts["settings"])
+
+
+def run_demonstrations(path: Path) -> str:
+    """Return the digest of the recorded demonstrations of a run folder; empty if scripted."""
+    return str(_facts(path / SETTINGS).get("demonstrations", ""))
 
 
 def _facts(file: Path) -> Facts:
@@ -131,6 +145,15 @@ def _check_same(path: Path, was: Facts, now: Facts) -> None:
     if changes:
         raise RunFolderError(
             f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
+        )
+
+
+def _check_same_shown(path: Path, shown: str) -> None:
+    before = run_demonstrations(path)
+    if before != shown:
+        raise RunFolderError(
+            f"{path} holds runs that were shown other demonstrations "
+            f"({before or 'scripted'} → {shown or 'scripted'}); choose another --out"
         )
 
 

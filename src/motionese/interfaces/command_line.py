@@ -15,7 +15,7 @@ from typing import Annotated
 import typer
 
 from motionese.errors import SettingError, unknown
-from motionese.interfaces import data_commands, model_commands
+from motionese.interfaces import data_commands, model_commands, teach_commands
 from motionese.interfaces.plainly import WRONG, plainly
 
 app = typer.Typer(
@@ -90,6 +90,13 @@ def reproduce(
         str | None,
         typer.Option(metavar="projection|rendered", help="Where the robot sees hands from."),
     ] = None,
+    caregiver: Annotated[
+        str,
+        typer.Option(
+            metavar="scripted|recordings:FOLDER",
+            help="Who shows the motions: e.g. what `motionese teach` has kept in a folder.",
+        ),
+    ] = "scripted",
     out: Annotated[Path | None, typer.Option(help="The run folder; default: runs/PRESET.")] = None,
     workers: Annotated[
         int | None, typer.Option(min=1, help="Runs at a time; default: one a core.")
@@ -118,6 +125,7 @@ def reproduce(
             out=out,
             workers=workers,
             quick=quick,
+            caregiver=caregiver,
         )
     _end(too_few, trial=quick)
 
@@ -151,6 +159,7 @@ def presets(
             raise SettingError(unknown("preset", name, PRESETS))
 
 
+teach_commands.add_to(app)
 data_commands.add_to(app)
 model_commands.add_to(app)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from dask.system import CPU_COUNT
 from rich.console import Console
 
+from motionese.errors import SettingError
 from motionese.experiment.conditions import CONDITIONS
 from motionese.experiment.many_runs import UnfinishedRunsError, go_through_all
 from motionese.experiment.reading import read_settings
@@ -16,6 +17,9 @@ from motionese.experiment.settings import Settings
 from motionese.interfaces.choices import as_ranges, read_conditions, read_seeds
 from motionese.interfaces.display import Display
 from motionese.interfaces.report import report
+from motionese.teaching.demonstrations import Recorded, recorded
+
+SCRIPTED = "scripted"
 
 
 def reproduce(
@@ -28,6 +32,7 @@ def reproduce(
     out: Path | None,
     workers: int | None,
     quick: bool,
+    caregiver: str = SCRIPTED,
 ) -> str:
     """Perform the experiment, or what is left of it, and report.
 
@@ -43,17 +48,22 @@ def reproduce(
     settings = read_settings(preset, overrides, quick=quick)
     newborn(CONDITIONS[-1], Scene(settings, seed=0))
     chosen, numbers = read_conditions(conditions), read_seeds(seeds)
+    shown = _shown(caregiver, settings)
     path = out or Path("runs") / (Path(preset).stem + ("-quick" if quick else ""))
-    with open_run_folder(path, settings, preset) as folder:
+    with open_run_folder(path, settings, preset, shown.digest if shown else "") as folder:
         runs = [folder.run(condition, seed) for seed in numbers for condition in chosen]
         console.print(f"The report will be at {path / REPORT}")
         names = ", ".join(c.name for c in chosen)
         console.print(f"{len(runs)} runs: {names}, each with seeds {as_ranges(numbers)}")
+        if shown:
+            console.print(
+                f"Recorded demonstrations of {', '.join(shown.motions)}; the rest scripted"
+            )
         for change in folder.changed:
             console.print(
                 f"This folder was begun with other versions ({change}): the bits may differ"
             )
-        failures = _go_through(runs, settings, workers or CPU_COUNT, console)
+        failures = _go_through(runs, settings, workers or CPU_COUNT, shown, console)
         if failures and not any(run.ended() for run in runs):
             raise UnfinishedRunsError("; ".join(failures))
         too_few = report(path, console)
@@ -63,8 +73,22 @@ def reproduce(
     return too_few
 
 
+def _shown(caregiver: str, settings: Settings) -> Recorded | None:
+    """Return the demonstrations of 'recordings:PATH', or None for 'scripted'."""
+    kind, _, path = caregiver.partition(":")
+    if caregiver == SCRIPTED:
+        return None
+    if kind != "recordings" or not path:
+        raise SettingError(f"--caregiver is {SCRIPTED} or recordings:FOLDER, got '{caregiver}'")
+    return recorded(Path(path), settings.caregiver, settings.body.rate_hz)
+
+
 def _go_through(
-    runs: Sequence[Run], settings: Settings, workers: int, console: Console
+    runs: Sequence[Run],
+    settings: Settings,
+    workers: int,
+    shown: Recorded | None,
+    console: Console,
 ) -> list[str]:
     left = [run for run in runs if not run.ended()]
     loops = settings.phases.loops
@@ -82,6 +106,7 @@ def _go_through(
             left,
             settings,
             workers,
+            caregiver=shown.caregiver if shown else None,
             loop_done=display.loop_done,
             run_ended=display.run_ended,
         )

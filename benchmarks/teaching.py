@@ -1,0 +1,111 @@
+"""The page on which a person teaches the robot, in a headless Chromium that draws in software.
+
+A robot goes through a short experiment first. Then a simulated hand draws its motions on the page,
+with the tempo and the tremor of a hand, as in the tests: from lifting the pen to the verdict that
+is shown, understanding while the hand moves, samples of the pointer that reach the robot. At last
+the command is started again and again: how long until the page can be used, with everything
+compiled before. Chromium shares the processor with the robot here.
+
+    python benchmarks/teaching.py
+"""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+from time import monotonic, sleep
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+try:
+    from page.person import Person
+    from page.serving import CHROMIUM, FLAGS, served, train_robot
+    from playwright.sync_api import Browser, sync_playwright
+except ImportError as error:
+    sys.exit(f"this benchmark needs {error.name}: pip install -e '.[dev]'")
+
+MOTIONS = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑", "UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑")
+STROKE_S, STARTS = 1.2, 5
+VERDICT_S, UNDERSTOOD_HZ, USABLE_S, ARRIVED = 0.5, 5.0, 3.0, 0.95
+
+
+def at_the_page(browser: Browser, address: str) -> Person:
+    window = browser.new_context(viewport={"width": 1280, "height": 800})
+    return Person(window.new_page(), address)
+
+
+def draw_all(person: Person) -> dict[str, list[float]]:
+    """Draw every motion; returns seconds to the verdict, understandings a second, shares."""
+    found: dict[str, list[float]] = {"verdict": [], "understood": [], "arrived": []}
+    for motion in MOTIONS:
+        before, sent = person.state(), person.points_sent()
+        began = monotonic()
+        moves = person.draws(motion, STROKE_S)
+        took = monotonic() - began
+        understood = person.state()["understandings"] - before["understandings"]
+        lifted = monotonic()
+        person.page.mouse.up()
+        while person.state()["step"] != "judged":
+            sleep(0.002)
+        found["verdict"].append(monotonic() - lifted)
+        found["understood"].append(understood / took)
+        found["arrived"].append((person.points_sent() - sent - 1) / moves)
+        person.until(lambda state: not state["busy"])
+    return found
+
+
+def seconds_until_usable(browser: Browser, run: Path) -> tuple[float, float]:
+    """Return how long from the command to the page's first line, and until it can be drawn on."""
+    with tempfile.TemporaryDirectory() as folder:
+        began = monotonic()
+        with served(Path(folder), run) as server:
+            person = at_the_page(browser, server.address)
+            person.page.goto(server.address)
+            shown = monotonic() - began
+            while not person.state()["ready"]:
+                sleep(0.01)
+            usable = monotonic() - began
+            person.page.context.close()
+    return shown, usable
+
+
+def main() -> None:
+    """Train, draw, start again and again, print."""
+    if CHROMIUM is None:
+        sys.exit("this benchmark needs Chromium: apt install chromium")
+    console, load = Console(markup=False), os.getloadavg()[0]
+    with tempfile.TemporaryDirectory() as name, sync_playwright() as playwright:
+        run = Path(name) / "run"
+        train_robot(run)
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
+        with served(Path(name), run) as server:
+            found = draw_all(at_the_page(browser, server.address).arrives())
+        starts = np.array([seconds_until_usable(browser, run) for _ in range(STARTS)])
+        browser.close()
+    table = Table(title=f"{len(MOTIONS)} motions drawn, {STARTS} starts of the command")
+    for heading in ("", "median", "worst", "target", ""):
+        table.add_column(heading, justify="right" if table.columns else "left")
+    for label, values, worst, target, met in (
+        ("pen up to verdict shown [s]", found["verdict"], max, VERDICT_S, False),
+        ("understandings a second", found["understood"], min, UNDERSTOOD_HZ, True),
+        ("pointer samples that arrive", found["arrived"], min, ARRIVED, True),
+        ("command to page shown [s]", starts[:, 0], max, None, False),
+        ("command to page usable [s]", starts[:, 1], max, USABLE_S, False),
+    ):
+        middle, bad = float(np.median(values)), float(worst(values))
+        row = [label, f"{middle:.2f}", f"{bad:.2f}"]
+        if target is not None:
+            good = middle >= target if met else middle <= target
+            row += [f"{'≥' if met else '≤'} {target:g}", "met" if good else "missed"]
+        table.add_row(*row)
+    console.print(table)
+    console.print(
+        f"load average {load:.1f} before, {os.getloadavg()[0]:.1f} after, on {os.cpu_count()} cores"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,105 @@
+"""The notebook: everything shown so far, how well it was imitated, and what was learned of it."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
+Source = Literal["drawn", "webcam", "scripted"]
+SETTLED_AFTER = 3
+"""Learning has settled when so many errors in a row are hardly better than so many before."""
+SETTLED, GOOD_CM = 0.8, 2.0
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One demonstration.
+
+    Attributes:
+        number: Counted from 1; never given twice.
+        motion: What it is called: as drawn if that is a motion of the task, else as understood.
+        source: Who showed it.
+        drawn: The hand's path [m, world] as it was drawn in time. [R, 3]
+        path: The same at the robot's tempo. [T, 3]
+        errors_cm: The imitations' errors, in order [cm].
+    """
+
+    number: int
+    motion: str
+    source: Source
+    drawn: Float[ndarray, "R 3"]
+    path: Float[ndarray, "T 3"]
+    errors_cm: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Learned:
+    """One learning, or one growth of the network.
+
+    Attributes:
+        entry: The notebook's entry that was learned; 0 for growth.
+        loop: The last loop that its experience carries.
+        before: The number of the kept learner that was there before.
+        error_cm: The imitation's error afterwards [cm]; None for growth.
+    """
+
+    entry: int
+    loop: int
+    before: int
+    error_cm: float | None
+
+
+@dataclass(frozen=True)
+class Notebook:
+    """Entries and learnings, the oldest first; `next` numbers the next entry."""
+
+    entries: tuple[Entry, ...] = ()
+    learned: tuple[Learned, ...] = ()
+    next: int = field(default=1)
+
+    def entry(self, number: int) -> Entry | None:
+        """Return the entry of a number, or None if there is none (any more)."""
+        return next((e for e in self.entries if e.number == number), None)
+
+    def with_entry(self, entry: Entry) -> "Notebook":
+        """Return the notebook with a new or changed entry."""
+        if self.entry(entry.number) is None:
+            return replace(self, entries=(*self.entries, entry), next=entry.number + 1)
+        changed = tuple(entry if e.number == entry.number else e for e in self.entries)
+        return replace(self, entries=changed)
+
+    def without(self, number: int) -> "Notebook":
+        """Return the notebook without an entry, and without what was learned of it."""
+        return replace(
+            self,
+            entries=tuple(e for e in self.entries if e.number != number),
+            learned=tuple(each for each in self.learned if each.entry != number),
+        )
+
+    def latest(self) -> tuple[Entry, ...]:
+        """Return the latest entry of every motion."""
+        return tuple({e.motion: e for e in self.entries}.values())
+
+    @property
+    def curve(self) -> tuple[float, ...]:
+        """The imitation error after every learning [cm]."""
+        return tuple(each.error_cm for each in self.learned if each.error_cm is not None)
+
+    @property
+    def last_loop(self) -> int:
+        """The latest loop of a learning; 0 before the first."""
+        return max((each.loop for each in self.learned), default=0)
+
+
+def has_settled(errors_cm: Iterable[float]) -> bool:
+    """Whether the last errors are small, or hardly smaller than those before them."""
+    errors = list(errors_cm)
+    last, before = errors[-SETTLED_AFTER:], errors[-2 * SETTLED_AFTER : -SETTLED_AFTER]
+    if len(last) < SETTLED_AFTER:
+        return False
+    if max(last) < GOOD_CM:
+        return True
+    return len(before) == SETTLED_AFTER and bool(np.mean(last) > SETTLED * np.mean(before))

@@ -1,0 +1,69 @@
+"""A person shows motions with a pointer, keys, or a camera, and the robot says what it saw."""
+
+import time
+
+from page.conftest import FILMED
+
+PRIMITIVES = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑")
+PAIRS = ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑", "LL ↑↓", "LR ↑↓")
+
+
+def test_every_sample_of_the_pointer_reaches_the_robot(person):
+    before, began = person.points_sent(), time.monotonic()
+    moves = person.draws("UR ←↓", 1.85)
+    took = time.monotonic() - began
+    understood = person.state()["understandings"]
+    person.page.mouse.up()
+    verdict = person.until(lambda state: state["verdict"])["verdict"]
+    assert moves >= 200
+    assert took < 4.5
+    assert person.points_sent() - before >= 0.95 * moves
+    assert person.state()["points"] >= 0.95 * moves
+    assert understood >= 5 * 3.5, "fewer than five times a second"
+    assert verdict["ms"] <= 500
+
+
+def test_the_arrows_are_what_was_drawn(person):
+    read = {}
+    for motion in (*PRIMITIVES, *PAIRS):
+        person.shows(motion)
+        read[motion] = person.page.get_by_test_id("verdict-arrows").text_content()
+    wrong = {motion: said for motion, said in read.items() if not said.startswith(motion)}
+    assert not set(wrong) & set(PRIMITIVES)
+    assert len(set(PAIRS) - set(wrong)) >= 4, wrong
+
+
+def test_something_red_before_the_camera_is_followed(person):
+    person.presses("webcam")
+    person.presses("webcam-show")
+    person.until(lambda state: state["drawing"] and state["points"] > 5)
+    seen = -1
+    while seen < (now := person.state()["points"]):  # until the film shows nothing any more
+        seen = now
+        time.sleep(0.5)
+    person.presses("webcam-show")
+    verdict = person.until(lambda state: state["verdict"])["verdict"]
+    assert verdict["motion"] == FILMED
+    assert {said.get("source") for said in person.sent if said.get("phase") == "down"} == {"webcam"}
+    assert "webcam" in person.page.get_by_test_id("notebook").inner_html()
+
+
+def test_the_keyboard_is_enough(person):
+    keys = person.page.keyboard
+    person.goes_to("surface")
+    for key in ("ArrowDown", "ArrowUp", "Space", "ArrowDown", "Enter"):
+        keys.press(key)
+    assert person.until(lambda state: state["step"] == "judged")["verdict"]["motion"] == "UR ↓"
+    person.goes_to("imitate")
+    keys.press("Enter")
+    person.until(lambda state: state["step"] == "performed" and not state["busy"])
+    person.goes_to("learn")
+    keys.press("Enter")
+    person.until(lambda state: state["step"] == "learned" and not state["busy"])
+
+
+def test_everything_has_a_name_for_who_cannot_see(person):
+    person.shows("UR ↓")
+    named = person.names()
+    assert len([role for role, _ in named if role == "button"]) >= 6
+    assert [role for role, name in named if not name] == []

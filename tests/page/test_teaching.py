@@ -1,0 +1,32 @@
+"""The robot moves, learns and grows while a person looks on, and the page remembers."""
+
+from page.person import changed
+
+
+def test_the_robot_moves_on_the_canvas(person):
+    before = person.sees("robot")
+    person.shows("UR ↓")
+    frames = person.state()["frames"]
+    person.presses("imitate")
+    person.until(lambda state: state["frames"] > frames + 15)
+    assert changed(before, person.sees("robot")) > 0.004
+    done = person.until(lambda state: state["step"] == "performed" and not state["busy"])
+    assert done["performed"]["error_cm"] < 5
+    assert done["frames"] - frames >= 20, "poses a second"
+    assert changed(before, person.sees("robot")) > 0.004
+
+
+def test_a_newborn_learns_and_grows_and_is_found_again(parent):
+    parent.shows("UL ↓")
+    learned = parent.lets_it_learn()["learned"]
+    assert learned["after_cm"] < 0.7 * learned["before_cm"]
+    levels = parent.page.locator("#network svg > g:not(.waiting)")
+    assert levels.count() == 2
+    parent.presses("grow")
+    parent.until(lambda state: state["phase"] == 2 and not state["busy"])
+    assert levels.count() == 3
+    shown = parent.state()["notebook"]
+    parent.page.reload()
+    again = parent.until(lambda state: state["ready"] and state["notebook"])
+    assert (again["notebook"], again["phase"]) == (shown, 2)
+    assert "UL ↓" in parent.page.get_by_test_id("notebook").text_content()

@@ -1,0 +1,50 @@
+"""The page asks nobody else, two of them do not disturb each other, a dead worker comes back."""
+
+from urllib.parse import urlsplit
+from urllib.request import urlopen
+
+
+def test_nothing_is_asked_of_others_and_nothing_complains(person):
+    person.shows("UR ↓")
+    person.lets_it_imitate()
+    home = urlsplit(person.address).netloc
+    assert len(person.requests) > 10
+    assert {urlsplit(url).netloc for url in person.requests} == {home}
+    assert person.complaints == []
+
+
+def test_the_policy_lets_nothing_else_in(taught):
+    policy = urlopen(taught.address).headers["content-security-policy"]
+    rules = {name: set(sources) for name, *sources in map(str.split, policy.split(";"))}
+    assert rules["default-src"] == {"'none'"}
+    assert rules["script-src"] == rules["style-src"] == rules["connect-src"] == {"'self'"}
+    assert all(
+        source in ("'self'", "'none'", "data:", "blob:") for of in rules.values() for source in of
+    )
+
+
+def test_a_second_page_is_told_and_may_take_over(open_page, taught):
+    first, second = open_page(taught).arrives(), open_page(taught)
+    second.page.goto(second.address)
+    second.page.get_by_test_id("take-over").wait_for()
+    assert not second.state()["ready"]
+    assert first.state()["ready"], "the first is disturbed"
+    first.shows("UR ↓")
+    second.presses("take-over")
+    second.until(lambda state: state["ready"])
+    first.until(lambda state: not state["ready"])
+    assert "taken over" in first.reads("notice")
+    second.shows("UR ↓")
+    assert [*first.complaints, *second.complaints] == []
+
+
+def test_a_killed_worker_comes_back_with_the_session(person, taught):
+    person.shows("LR ↑")
+    shown, robot = person.state()["notebook"], taught.worker()
+    robot.kill()
+    person.until(lambda state: not state["ready"], patience=5)
+    assert "starting again" in person.guide()
+    again = person.until(lambda state: state["ready"])
+    assert again["notebook"] == shown
+    assert taught.worker().pid != robot.pid
+    assert person.shows("UR ↓")["motion"] == "UR ↓"

@@ -1,0 +1,89 @@
+"""A drawing becomes a demonstration at the robot's tempo, and bad ones are told kindly."""
+
+import numpy as np
+import pytest
+from drawn import points_of
+from hypothesis import given
+from hypothesis import strategies as some
+
+from motionese.body import CORNERS
+from motionese.teaching.drawing import (
+    LONGEST_S,
+    MOST_POINTS,
+    Drawing,
+    DrawingError,
+    demonstrated,
+    lasting,
+    moving,
+)
+
+
+@pytest.mark.parametrize("seconds", [0.5, 1.4, 4.0])
+@pytest.mark.parametrize(("name", "strokes"), [("UR ↓", 1), ("UR ←↓", 2), ("LL ↑↓↑", 3)])
+def test_slow_and_fast_hands_show_at_the_same_tempo(draw, scene, seconds, name, strokes):
+    demonstration = draw(name, seconds=seconds)
+    rows = strokes * sum(
+        getattr(scene.settings.caregiver, steps) for steps in ("stroke_steps", "rest_steps")
+    )
+    assert len(demonstration.path) == pytest.approx(rows, rel=0.1)
+    assert len(demonstration.drawn) == pytest.approx(10 * seconds * strokes, rel=0.45)
+
+
+def test_a_demonstration_begins_and_ends_where_the_pen_did(draw):
+    path = draw("UR ←↓").path
+    assert np.linalg.norm(path[0] - CORNERS["UR"]) < 0.01
+    assert np.linalg.norm(path[-1] - CORNERS["LL"]) < 0.01
+
+
+def test_stillness_is_cut_to_what_the_caregiver_rests():
+    there, here = np.array([0.0, 0.0, 0.1]), np.zeros(3)
+    way = lasting(np.stack([here, there]), 5)
+    path = np.concatenate([[here] * 9, way, [there] * 9, way[::-1], [here] * 9])
+    cut = moving(path, rest_steps=2)
+    assert len(cut) == 1 + 4 + 2 + 4, "one row at the ends, two in the middle"
+    np.testing.assert_array_equal(cut[[0, -1]], [here, here])
+
+
+def test_slips_and_endless_scribbles_are_refused_in_words(scene):
+    manner = scene.settings.caregiver
+    still = np.zeros((20, 3)) + CORNERS["UR"]
+    with pytest.raises(DrawingError, match="very short"):
+        demonstrated(still, manner)
+    scribble = np.concatenate([np.stack([CORNERS["UR"], CORNERS["LR"]])] * 4)
+    with pytest.raises(DrawingError, match="longer than 6 strokes"):
+        demonstrated(lasting(scribble, 100), manner)
+
+
+def test_no_more_points_than_allowed_are_taken():
+    drawing = Drawing()
+    drawing.add([(0.1 * row, 0.5, 0.5) for row in range(MOST_POINTS + 100)])
+    assert len(drawing) == MOST_POINTS and drawing.full
+
+
+def test_a_point_at_the_end_of_time_costs_no_memory():
+    drawing = Drawing()
+    drawing.add([(0.0, 0.1, 0.1), (100.0, 0.2, 0.2), (1e12, 0.3, 0.3), (200.0, 0.4, 0.4)])
+    assert drawing.full and drawing.seconds == 0.1
+    assert len(drawing.sampled(10.0)) < 10
+
+
+@given(
+    some.lists(
+        some.tuples(some.floats(0, 3e4), some.floats(-1, 2), some.floats(-1, 2)),
+        min_size=1,
+        max_size=50,
+    )
+)
+def test_whatever_is_drawn_is_sampled_or_refused(points):
+    drawing = Drawing()
+    drawing.add(sorted(points))
+    sampled = drawing.sampled(10.0)
+    assert np.isfinite(sampled).all() and len(sampled) <= 10 * LONGEST_S + 2
+    assert sampled.min() >= -1 and sampled.max() <= 2
+
+
+def test_rows_follow_the_pen():
+    drawing = Drawing()
+    drawing.add(points_of("UR ↓", seconds=2.0))
+    sampled = drawing.sampled(10.0)
+    assert np.diff(sampled[:, 1]).min() > -0.01, "downwards all the way"
