@@ -30,7 +30,13 @@ except ImportError:
 
 SIZES, TAUS, MOTIONS, STEPS = (6, 40, 2), (2.0, 5.0, 70.0), 9, 80
 SETTINGS = Training(
-    optimiser="adam", weight_rate=3e-3, initial_rate=1e-2, clip=0.0, bound={}, teacher_forcing=0.3
+    optimiser="adam",
+    weight_rate=3e-3,
+    initial_rate=1e-2,
+    schedule="constant",
+    clip=0.0,
+    bound={},
+    teacher_forcing=0.3,
 )
 EPOCHS, EPOCHS_IN_TORCH, ROUNDS = Training().epochs, 30, 5
 TARGET = 20.0

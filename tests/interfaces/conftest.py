@@ -1,12 +1,14 @@
 """The command line as a user meets it, in this process or in one of its own."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from small_runs import compiled, small_settings, undisturbed
+from typed import SMALL, typed, write_csv
 
 from motionese.interfaces.command_line import main
 
@@ -51,4 +53,32 @@ def command(tmp_path, monkeypatch, capfd):
 @pytest.fixture
 def here(tmp_path) -> Path:
     """The folder that commands run in."""
+    return tmp_path
+
+
+@pytest.fixture(scope="session")
+def trained(tmp_path_factory, compiled) -> Path:
+    """A folder with recordings of an arm, a model of them, and initial states it recognised."""
+    folder = tmp_path_factory.mktemp("trained")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        write_csv("demos.csv")
+        for line in (
+            ("import", "demos.csv", "--out", "data.npz"),
+            ("train", "data.npz", "--out", "arm.safetensors", *SMALL, "--held-out", "0"),
+            ("recognise", "arm.safetensors", "demos.csv", "--initial", "seen.json"),
+            ("export", "data.npz", "--out", "data.hdf5"),
+        ):
+            status, output, errors = typed(*line)
+            assert (status, errors) == (0, ""), errors
+            Path(f"{line[0]}.txt").write_text(output)
+    return folder
+
+
+@pytest.fixture
+def arm(trained, tmp_path, monkeypatch) -> Path:
+    """An empty folder to work in, with the recordings, the model and the initial states."""
+    for name in ("demos.csv", "data.npz", "data.hdf5", "arm.safetensors", "seen.json"):
+        shutil.copy(trained / name, tmp_path)
+    monkeypatch.chdir(tmp_path)
     return tmp_path

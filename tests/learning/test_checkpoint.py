@@ -63,20 +63,22 @@ def interrupted(path, *arguments, after=2, **given):
     ("settings", "held_out"),
     [
         ({"noise": {"cf": 0.2}, "optimiser": "momentum", "weight_rate": 0.01}, False),
-        ({"patience": 200, "tolerance": 0.3}, True),
+        ({"patience": 200, "tolerance": 0.01, "schedule": "constant"}, True),
     ],
 )
 def test_an_interrupted_training_ends_with_the_same_bits(
     small, motions, tmp_path, settings, held_out
 ):
+    unlike = Motions.from_arrays([motions.values[0] * (1, 1, -1)], motions.channels, 10.0)
     given = {
         "settings": CHOSEN.model_copy(update=settings),
         "key": jax.random.key(3),
-        "validation": motions[2] if held_out else None,
+        "validation": unlike if held_out else None,
     }
     learned, path = motions.chosen([0, 1]), tmp_path / "checkpoint"
     whole = train(small, learned, **given)
     assert len(whole.losses) == 400
+    assert not held_out or whole.validation_losses.argmin() == 1, "the best came before the break"
 
     interrupted(path, small, learned, after=1, **given)
     interrupted(path, small, learned, after=2, **given)

@@ -7,16 +7,15 @@ import pytest
 from motionese import MTRNN, Level, Motions, Training, generate, train
 from motionese.errors import SettingError
 
-ROWS = 60
+ROWS = 61
 
 
 @pytest.fixture(scope="module")
 def slow(motions):
     """A fit of motions that move little from row to row, as recordings do."""
-    t = np.linspace(0.0, 4.0, ROWS)
+    times = [np.linspace(0.0, 4.0, ROWS) + phase for phase in (0.0, 1.5)]
     values = [
-        np.stack([np.sin(t + p), np.cos(1.3 * t + p), np.sin(t) + np.cos(1.3 * t)], axis=1)
-        for p in (0.0, 1.5)
+        np.stack([np.sin(t), np.cos(1.3 * t), np.sin(t) + np.cos(1.3 * t)], axis=1) for t in times
     ]
     slowly = Motions.from_arrays(values, motions.channels, rate_hz=20.0)
     levels = [Level(3, tau=2.0), Level(12, tau=5.0), Level(2, tau=70.0)]

@@ -17,7 +17,7 @@ def test_generation_begins_where_the_robot_is(fit, x, z):
     there = placed(fit.network, state, {"z": z, "x": x})
 
     np.testing.assert_array_equal(there[[1, *range(3, 17)]], state[[1, *range(3, 17)]])
-    unit = 0.1 + 0.8 * (np.array([x, z]) + (2.0, 3.0)) / (4.0, 6.0)
+    unit = 0.1 + 0.8 * np.array([(x + 2.0) / 4.0, (z + 3.0) / 6.0])
     np.testing.assert_allclose(there[[0, 2]], np.log(unit / (1 - unit)), rtol=1e-5, atol=1e-6)
     begun = generate(fit.network, there, 2)[0]
     np.testing.assert_allclose(begun[[0, 2]], [x, z], atol=1e-5)

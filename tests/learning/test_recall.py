@@ -6,7 +6,8 @@ import jax
 import numpy as np
 import pytest
 
-from motionese import MTRNN, Level, Motions, Recognition, Training, generate, recognise, train
+from motionese import MTRNN, Level, Motions, Recognition, Training, recognise, train
+from motionese.errors import SettingError
 from motionese.learning import Ending, recognise_all
 from motionese.learning.recall import RECALLED, SLACK, recalled
 
@@ -55,18 +56,18 @@ def test_what_is_given_and_drawn_counts_after_what_is_recalled(fit, motions):
 
 
 def test_the_nearest_learned_motions_come_first(fit, motions):
-    memory = recalled(fit, motions.showing(["x", "z"]).batch(padded_rows := 40, 4))
+    shown = motions.showing(["x", "z"])
+    as_it_is = Recognition(iterations=1, starts=0, optimiser="descent", rate=0.0)
 
-    assert padded_rows == 40
+    memory = recalled(fit, shown.batch(40, 4))
+
     assert memory.starts.shape == (4, 3, 17)
-    for i, values in enumerate(motions.values):
-        paths = [
-            generate(fit.network, state, len(values), first=[values[0][0], np.nan, values[0][2]])
+    for i, motion in enumerate(shown):
+        losses = [
+            recognise(fit.network, motion, starts=state[None], settings=as_it_is).loss
             for state in fit.initial_states
         ]
-        losses = [(((p - values) / motions.channels.spans)[1:, [0, 2]] ** 2).sum() for p in paths]
-        expected = fit.initial_states[np.argsort(losses)]
-        np.testing.assert_array_equal(memory.starts[i], expected)
+        np.testing.assert_array_equal(memory.starts[i], fit.initial_states[np.argsort(losses)])
         np.testing.assert_array_equal(memory.starts[i, 0], fit.initial_states[i])
 
 
@@ -90,14 +91,14 @@ def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
     unknown = fit.closed_loop_error.copy()
     unknown[1, 0], unknown[:, 1] = np.nan, np.nan
     batch = motions.showing(["x"]).batch()
-    x = 0.8 * unknown[:, 0] / 4.0
+    squared = (0.8 * unknown[:, 0] / 4.0) ** 2
 
     memory = recalled(replace(fit, closed_loop_error=unknown), batch)
 
-    x[1] = np.median(x[[0, 2]])
+    squared[1] = np.median(squared[[0, 2]])
     for i, rows in enumerate((23, 17, 29)):
         np.testing.assert_allclose(
-            sorted(memory.enough[i]), np.sort(rows * SLACK**2 * x**2), rtol=1e-5
+            sorted(memory.enough[i]), np.sort(rows * SLACK**2 * squared), rtol=1e-5
         )
     unseen = recalled(replace(fit, closed_loop_error=unknown), motions.showing(["y"]).batch())
     np.testing.assert_array_equal(unseen.enough, 0.0)
@@ -105,7 +106,7 @@ def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
 
 def test_no_more_than_some_are_recalled_of_many():
     rng = np.random.default_rng(0)
-    many = Motions.from_arrays(rng.uniform(size=(6, 5, 1)), ["x"], 10.0)
+    many = Motions.from_arrays([*rng.uniform(size=(6, 5, 1))], ["x"], 10.0)
     net = MTRNN([Level(1, 2.0), Level(2, 5.0)], key=jax.random.key(0))
     fit = train(net, many, settings=Training(epochs=1))
 
@@ -121,3 +122,10 @@ def test_what_is_recalled_does_not_depend_on_company_or_padding(fit, motions):
         for each in (one, other):
             assert each.start == alone.start
             np.testing.assert_allclose(each.path, alone.path, atol=1e-4)
+
+
+def test_motions_of_another_rate_are_refused(fit, motions):
+    faster = Motions.from_arrays(motions.values, motions.channels, 2 * motions.rate_hz)
+
+    with pytest.raises(SettingError, match="20 rows a second, the model was trained at 10"):
+        recognise_all(fit, faster)

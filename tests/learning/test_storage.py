@@ -14,7 +14,9 @@ PARTS = (
     "validation_losses",
     "teacher_forced_error",
     "closed_loop_error",
+    "validation_error",
 )
+FACTS = ("names", "lengths", "rate_hz", "validation_names", "status")
 
 
 @pytest.fixture
@@ -27,8 +29,8 @@ def test_the_same_bits_come_back(path, fit):
     loaded = load(str(path))
 
     assert bool(eqx.tree_equal(loaded.network, fit.network))
-    assert loaded.names == fit.names
-    assert loaded.status == fit.status
+    for fact in FACTS:
+        assert getattr(loaded, fact) == getattr(fit, fact)
     for part in PARTS:
         np.testing.assert_array_equal(getattr(loaded, part), getattr(fit, part))
         assert getattr(loaded, part).dtype == getattr(fit, part).dtype
@@ -50,7 +52,7 @@ def test_a_fit_cut_short_is_refused(path):
             load(path)
 
 
-@pytest.mark.parametrize("part", [*PARTS, "names", "status", "sentence"])
+@pytest.mark.parametrize("part", [*PARTS, *FACTS, "sentence"])
 def test_a_network_without_a_whole_fit_is_refused(path, part):
     network, arrays, facts = read_network(path)
     arrays.pop(part, None)

@@ -13,6 +13,7 @@ from motionese.recordings import read, survey, write
 
 CELLS = st.one_of(
     st.sampled_from(["", "nan", "inf", "-1e308", "0", "1.5", "0,5", "wave", '"', "é", "\x00"]),
+    st.sampled_from(["NA", "true", "1600000000000", "2024-01-31 12:00:00", "12:00Z", "# x", "%"]),
     st.floats().map(repr),
 )
 TEXTS = (
@@ -20,7 +21,9 @@ TEXTS = (
     .map(str.strip)
     .filter(lambda name: name and name.casefold() not in ("episode", "time"))
 )
-NAMES = st.sampled_from(["episode", "time", "t [ms]", "x", "y [rad]", "", "1", "frame", '"'])
+NAMES = st.sampled_from(
+    ["episode", "time", "t [ms]", "x", "y (rad)", "", "1", "frame", '"', "#", "%t"]
+)
 
 
 def tried(path):
@@ -89,12 +92,14 @@ def test_files_of_anything(files, tmp_path, name, content):
 @given(st.data())
 def test_tables_of_anything(tmp_path, data):
     width = data.draw(st.integers(1, 4))
-    rows = st.lists(CELLS, min_size=width, max_size=width)
+    rows = st.lists(CELLS, min_size=width - 1, max_size=width + 1)
     header = data.draw(st.lists(NAMES, min_size=width, max_size=width, unique=True))
     body = data.draw(st.lists(rows, max_size=6))
-    separator = data.draw(st.sampled_from([",", ";", "\t"]))
+    separator = data.draw(st.sampled_from([",", ";", "\t", " "]))
+    above = data.draw(st.sampled_from(["", "# a\n", "# a,b\n\n", "sep=;\n", '#"\n']))
     path = tmp_path / "table.csv"
-    path.write_text("\n".join(separator.join(row) for row in [header, *body]), encoding="utf-8")
+    text = "\n".join(separator.join(row) for row in [header, *body])
+    path.write_text(above + text, encoding="utf-8")
 
     tried(path)
 

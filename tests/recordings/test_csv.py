@@ -70,7 +70,7 @@ def test_a_table_without_episodes_is_one_named_after_the_file(table):
 def test_a_folder_is_one_episode_a_file_in_natural_order(table, tmp_path):
     for i in (10, 9):
         table(f"x,y\n{i},2\n", name=f"folder/demo_{i}.csv")
-    table("y,x\n2,11\n", name="folder/demo_11.csv")
+    table("y,x\n2,11\n", name="folder/demo_11.CSV")
     (tmp_path / "folder" / "._demo_9.csv").write_bytes(b"\x00\x05\x16")
 
     found = read(tmp_path / "folder")
@@ -104,6 +104,68 @@ def test_what_spreadsheets_and_pandas_leave_behind(table):
     assert table("demo,0,1,2\n0,5,7,9\n").channels == ("0", "1", "2")
 
 
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [
+        ("%time,a.header.seq,pos\n1609459200000000000,7,5\n1609459200250000000,8,6\n", 0.25),
+        ("__time,pos\n1609459200.5,5\n1609459200.75,6\n", 0.25),
+        ("timestamp,pos\n1609459200500,5\n1609459200750,6\n", 0.25),
+        ("timestamp,pos\n1609459200500000,5\n1609459200750000,6\n", 0.25),
+        ("Time (ms),pos\n500,5\n750,6\n", 0.25),
+        ("timestamp_us,pos\n500,5\n750,6\n", 0.00025),
+        ("stamp,pos\n2024-02-28 23:59:59.9,5\n2024-02-29 00:00:00.15,6\n", 0.25),
+        ("# UR5\n# 4 Hz\n\ntime,pos\n0,5\n# pause\n0.25,6\n", 0.25),
+        ("# time pos\n0.00e+00 5e+00\n2.50e-01 6e+00\n", 0.25),
+        ("  time   pos\n   0.0     5\n  0.25     6\n", 0.25),
+        ("sep=;\ntime;pos\n0,0;5\n0,25;6\n", 0.25),
+        ("#,time,pos\n0,0,5\n1,0.25,6\n", 0.25),
+        ("time,pos\n0,5,\n0.25,6,,\n", 0.25),
+        ("Time,header.stamp.secs,frame_id,pos\n0,3,base,5\n.25,3,base,6\n", 0.25),
+        ("Unnamed: 0,time,header.frame_id,pos\n0,0,,5\n1,0.25,,6\n", 0.25),
+    ],
+)
+def test_what_robots_and_laboratories_write(table, text, seconds):
+    found = table(text)
+    (episode,) = found.episodes
+
+    assert found.usual == ("pos",)
+    assert episode.values[:, found.channels.index("pos")].tolist() == [5, 6]
+    assert episode.times[1] - episode.times[0] == pytest.approx(seconds, rel=1e-5)
+
+
+def test_cells_in_which_nothing_was_observed(table):
+    (episode,) = table("t,x,y\n0,NA,1\n1,null,2\n2,3\n3,4,nan\n").episodes
+
+    np.testing.assert_array_equal(episode.observed[:, 0], [False, False, True, True])
+    np.testing.assert_array_equal(episode.observed[:, 1], [True, True, False, True])
+    np.testing.assert_array_equal(episode.values[:, 1], [1, 2, np.nan, np.nan])
+
+
+def test_truth_values_are_numbers(table):
+    assert table("x,grip\n1,False\n2,TRUE\n").episodes[0].values[:, 1].tolist() == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("header", "name", "unit"),
+    [
+        ("arm (rad)", "arm", "rad"),
+        ("arm(deg/s)", "arm", "deg/s"),
+        ("acc (m/s^2)", "acc", "m/s^2"),
+        ("arm (left)", "arm (left)", ""),
+        ("f(x)", "f(x)", ""),
+        ("arm (rad) [m]", "arm (rad)", "m"),
+        ("(rad)", "(rad)", ""),
+    ],
+)
+def test_units_in_brackets(table, tmp_path, header, name, unit):
+    found = table(f"{header},b\n1,2\n3,4\n")
+    assert (found.channels[0], found.units[0]) == (name, unit)
+
+    write(tmp_path / "again.csv", found)
+    again = read(tmp_path / "again.csv")
+    assert (again.channels[0], again.units[0]) == (name, unit)
+
+
 def test_columns_of_text_beside_an_episode_column_are_no_channels(table):
     assert table("episode,task,x\na,wave,1\na,wave,2\n").channels == ("x",)
 
@@ -118,11 +180,17 @@ def test_columns_of_text_beside_an_episode_column_are_no_channels(table):
         ("Happy,0.2,1\nHappy,0.4,2\n", "the first line holds values"),
         ("x,y,x\n1,2,3\n", "columns must be unique; doubled: x"),
         ("x [rad],x [cm]\n1,2\n", "channel names must be unique; doubled: x"),
-        ("x,y\n1,2\n3\n", r"table\.csv, line 3: 1 cells, the header has 2"),
+        ("x,y\n1,2,3\n", r"table\.csv, line 2: 3 cells, the header has 2"),
+        ("x,y\n1,2\n3", r"line 3: the file is cut short inside a row \(1 cells, the header has 2"),
         ("x,y\n1,2\n3,four\n", r"line 3, column 'y': expected a number, got 'four'"),
         ("x;y\n1.5;2\n3,5;4\n", r"line 3, column 'x': expected a number, got '3,5'"),
-        ("id,x\nwave,2\n", r"column 'id' holds text.*; if it names the episodes: --episode id"),
-        ("time,x\nnoon,2\n", r"column 'time' holds text, not numbers$"),
+        ('x,y\n"0,5",1\n"1,5",2\n', r"line 2, column 'x': expected a number, got '0,5'"),
+        (
+            "an id,x\nwave,2\nbow,1\n",
+            "holds text such as 'bow'.* episodes: --episode 'an id', else",
+        ),
+        ("time,x\nnoon,2\n", r"line 2: column 'time' holds text.* 12:00:00\.25, got 'noon'$"),
+        ("time,x\n2024-01-31,1\n2024-02-01T00:00Z,1\n", "column 'time' holds text"),
         ("episode,x\na,1\nb,2\na,3\n", r"line 4: rows of episode 'a' go on after those of ano"),
         ("episode,x\na,1\n,2\n", r"line 3: the episode's name is missing"),
         ("episode,t,x\na,0,1\na,1,1\na,1,2\n", r"line 4: time must rise inside episode 'a', got"),

@@ -62,7 +62,7 @@ def test_readings_are_mixed_in_and_missing_ones_predicted(model, robot):
 
 def test_parts_follow_one_another(model, robot):
     state = model.initial("wave")
-    ran = loop_of(model, robot).run("reach", Part(state, 25, blend=10), "wave")
+    ran = loop_of(model, robot).run("reach", Part(state, 25, blend=10), Part("wave", blend=0))
 
     player = Player(model, model.begin("reach", HERE))
     expected = [player.step() for _ in range(40)]
@@ -72,6 +72,16 @@ def test_parts_follow_one_another(model, robot):
     expected += [player.step() for _ in range(31)]
     np.testing.assert_allclose(robot.sent, expected, rtol=1e-6)
     assert ran.steps == 96
+
+
+def test_a_fraction_of_a_step_is_refused_before_the_first_part_is_played(unchecked, model, robot):
+    for part, match in (
+        (Part("wave", 2.5), r"'wave' must be played for a whole number of steps, .* got 2\.5"),
+        (Part("wave", 5, blend=1.5), r"its blend must be 0 to its 5 steps, got 1\.5"),
+    ):
+        with pytest.raises(ControlError, match=match):
+            loop_of(model, robot).run("reach", part)
+    assert (robot.sent, robot.stops) == ([], 0)
 
 
 def test_cycles_keep_to_a_grid_of_time(model, robot):
@@ -106,6 +116,28 @@ def test_limits_hold_from_the_first_command_on(model, robot):
     assert sum(ran.slowed.values()) == ran.slowed["lift"]
 
 
+def test_the_first_command_is_near_where_the_robot_is(model, robot):
+    here = {"lift": 2.6, "turn": 80.0, "grip": 0.5}
+    ran = loop_of(
+        model, robot, lambda: here, limits=Limits(speeds={"lift": 1.0, "turn": 20.0})
+    ).run("reach")
+
+    np.testing.assert_allclose(robot.sent[0][:2], [2.55, 79.0])
+    assert (np.abs(np.diff(robot.sent, axis=0)).max(0)[:2] <= [0.0500001, 1.0000001]).all()
+    assert ran.clamped["turn"] > 0
+
+
+@pytest.mark.parametrize("at", [-4.1, 5.1, 65535.0])
+def test_a_first_reading_that_cannot_be_is_refused_before_anything_is_sent(model, robot, at):
+    match = rf"first reading: channel 'lift' is at {at:g}, far outside its limits -1 to 2: check"
+    with pytest.raises(ControlError, match=match):
+        loop_of(model, robot, lambda: {"lift": at, "turn": 0.0}, limits=Limits()).run("reach")
+
+    assert (robot.sent, robot.stops) == ([], 1)
+    wider = Limits(ranges={"lift": (-6.0, 6.0)}) if abs(at) < 6 else Limits({"lift": (0, 9e4)})
+    assert loop_of(model, robot, lambda: {"lift": at}, limits=wider).run("reach").steps == 40
+
+
 def test_nothing_is_sent_before_the_robot_has_said_where_it_is(model, robot):
     readings = iter([None, {}, {"lift": np.nan}])
     ran = loop_of(model, robot, lambda: next(readings, HERE)).run(Part("reach", 3))
@@ -118,7 +150,7 @@ def test_nothing_is_sent_before_the_robot_has_said_where_it_is(model, robot):
     assert len(robot.sent) == 3
 
 
-def test_sensors_that_fall_silent_end_the_loop_and_the_last_command_holds(model, robot):
+def test_sensors_that_fall_silent_end_the_loop_and_stop_the_robot(model, robot):
     def sense():
         return HERE if robot.clock.time < 100.52 else None
 
@@ -126,10 +158,9 @@ def test_sensors_that_fall_silent_end_the_loop_and_the_last_command_holds(model,
 
     assert ran.ended is Ended.SENSORS_SILENT
     assert ran.sentence == (
-        "no reading came for more than 0.22 s; the last command holds, that of step 15"
+        "no reading came for more than 0.22 s; the last command sent is that of step 15"
     )
-    assert len(robot.sent) == ran.steps == 15
-    assert robot.stops == 0
+    assert (len(robot.sent), ran.steps, robot.stops) == (15, 15, 1)
 
 
 def test_end_ends_the_loop_before_its_next_command(model, robot):
@@ -138,6 +169,15 @@ def test_end_ends_the_loop_before_its_next_command(model, robot):
 
     assert (ran.ended, ran.steps, len(robot.sent)) == (Ended.STOPPED, 4, 4)
     assert ran.sentence == "the loop was asked to end, after 4 steps"
+    assert robot.stops == 0
+
+
+def test_what_asks_to_end_before_a_run_ends_that_run_alone(model, robot):
+    loop = loop_of(model, robot)
+    loop.end()
+
+    assert (loop.run("reach").ended, robot.sent) == (Ended.STOPPED, [])
+    assert loop.run("reach").ended is Ended.DONE
 
 
 @pytest.mark.parametrize("where", ["sense", "act"])
@@ -209,7 +249,7 @@ def test_a_model_without_a_rate_is_given_one(model, robot):
     [
         ((), "nothing to play"),
         (("rech",), "unknown initial state 'rech'; did you mean 'reach'"),
-        ((Part("reach", 0),), "motion 'reach' must be played for 1 step or more, got 0"),
+        ((Part("reach", 0),), "motion 'reach' must be played for .*, 1 or more, got 0"),
         ((Part(np.zeros(12)),), "a motion: the model does not tell how long it is; give its steps"),
         ((Part("reach", blend=5),), "'reach' is the first: it has none before it"),
         (("reach", Part("wave", 5, blend=6)), "its blend must be 0 to its 5 steps, got 6"),

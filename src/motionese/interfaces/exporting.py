@@ -4,22 +4,28 @@ from pathlib import Path
 
 from rich.console import Console
 
+from motionese.errors import MotioneseError
 from motionese.interfaces.importing import told
-from motionese.interfaces.onnx_step import export_onnx
+from motionese.interfaces.onnx_step import TOLERANCE, export_onnx
+from motionese.interfaces.outputs import check_output
 from motionese.learning import Motions, load
 
 
 def export_model(console: Console, model: Path, out: Path) -> None:
     """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
+    check_output("--onnx", out, (".onnx",))
     difference = export_onnx(out, load(model))
     console.print(
         f"{out}: one step (x, u → y, u_next); "
-        f"differs from the network by at most {difference:.1e}, allowed 1e-06"
+        f"differs from the network by at most {difference:.1e}, allowed {TOLERANCE:g}"
     )
 
 
 def export_data(console: Console, source: Path, out: Path, to: str | None) -> None:
     """Write motions in another format, and tell what was written."""
-    motions = Motions.read(source)
+    try:
+        motions = Motions.read(source)
+    except MotioneseError as error:
+        raise type(error)(f"{error} (with motionese import, whose .npz can be exported)") from error
     motions.write(out, to)
     console.print(f"{out}: {told(motions)}")

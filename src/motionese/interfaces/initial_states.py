@@ -13,6 +13,8 @@ from motionese.files import write_whole
 from motionese.network import MTRNN
 
 FORMAT, VERSION = "motionese-initial-states", 1
+LARGEST = float(np.finfo(np.float32).max)
+"""Potentials are single-precision numbers."""
 MOST_ROWS = 1_000_000
 """Of one motion: beyond it, no memory holds what a network computes."""
 
@@ -63,7 +65,7 @@ def read_initial_states(path: Path, network: MTRNN) -> dict[str, tuple[Float[nda
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise StorageError(f"{path}: its initial states are incomplete") from error
     for name, (state, rows) in states.items():
-        if state.shape != (network.size,) or not np.isfinite(state.astype(np.float32)).all():
+        if state.shape != (network.size,) or not (np.abs(state) <= LARGEST).all():
             raise StorageError(
                 f"{path}: motion '{name}' needs {network.size} finite numbers, one per unit of "
                 f"the model, got {state.size}; was it recognised with another model?"

@@ -1,5 +1,6 @@
 """Motions drawn: one small panel a channel, time along, every motion a line."""
 
+import warnings
 from collections.abc import Sequence
 from math import ceil
 from pathlib import Path
@@ -16,6 +17,8 @@ from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
 """Panels side by side, their height [inch], and how many channels are drawn at most."""
+LARGEST = 1e100
+"""Beyond it values are not drawn."""
 MANY = 8
 """From so many motions on, lines are thin and pale and have no names."""
 COLOURS = [look.colour for look in LOOKS.values()] + ["#009e73", "#cc79a7", "#000000"]
@@ -44,12 +47,19 @@ def write_figure(
         StorageError: A file that cannot be written.
     """
     # Names are what they are, dollars included.
-    with rc_context({**SETTINGS, "text.parse_math": False}):
+    with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
+        # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
+        warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
         drawn = finished(_figure(paths, names, channels[:MOST], rate_hz, title), "motions")
     try:
         write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
     except OSError as error:
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _drawable(values: Float[ndarray, " T"]) -> Float[ndarray, " T"]:
+    """Return values with gaps where they are so large that an axis' arithmetic overflows."""
+    return np.where(np.abs(values) <= LARGEST, values, np.nan)
 
 
 def _figure(
@@ -68,7 +78,7 @@ def _figure(
         for i, motion in enumerate(paths):
             panel.plot(
                 np.arange(len(motion)) / (rate_hz or 1.0),
-                motion[:, column],
+                _drawable(motion[:, column]),
                 color=COLOURS[i % len(COLOURS)] if few else INK,
                 linewidth=1.4 if few else 0.7,
                 alpha=1.0 if few else 0.35,

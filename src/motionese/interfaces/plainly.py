@@ -29,7 +29,7 @@ def plainly(stopped: str) -> Iterator[None]:
     except OSError as error:
         if error.filename is None:
             raise
-        raise _left(f"{error.filename}: {error.strerror}") from error
+        raise _left(f"{error.filename}: {error.strerror or error}") from error
     except KeyboardInterrupt as error:
         typer.echo(f"\nmotionese: {stopped}", err=True)
         raise typer.Exit(INTERRUPTED) from error

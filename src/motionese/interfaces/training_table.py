@@ -29,6 +29,8 @@ def channel_table(fit: Fit) -> Table:
 def verdict(fit: Fit) -> str:
     """Return in words what the errors mean for a robot that is driven by the model."""
     forced, closed = fit.share(fit.teacher_forced_error), fit.share(fit.closed_loop_error)
+    if np.isnan(closed):
+        return "No error can be told: nothing was observed after the motions' first rows."
     worst = np.array([fit.share(e) for e in fit.closed_loop_error])
     which = int(np.nanargmax(worst))
     parts = [

@@ -12,7 +12,7 @@ from motionese.recordings import MARGIN, range_of
 
 
 def checked(
-    arrays: Sequence[Any],
+    arrays: Sequence[Any] | ndarray,
     observed: Sequence[Any] | None,
     names: Sequence[str] | None,
     labels: Sequence[str],
@@ -22,7 +22,7 @@ def checked(
     Raises:
         MotionError: No motions, or one that cannot be learned from.
     """
-    if not arrays:
+    if not len(arrays):
         raise MotionError("no motions given; at least one is needed")
     called = tuple(names) if names is not None else tuple(str(i) for i in range(len(arrays)))
     values = tuple(np.array(a, dtype=np.float64) for a in arrays)

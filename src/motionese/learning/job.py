@@ -121,7 +121,7 @@ class Job:
         )
 
     def fit(self, course: Course, status: Status) -> Fit:
-        """Return what the course left: its last state, or the best one if it stopped early."""
+        """Return what the course left: its last state, or the best one where one was looked for."""
         early = self.validation is not None and self.settings.patience > 0
         state = course.best if early else course.state
         network = state.trained(self.network)

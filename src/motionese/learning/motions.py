@@ -43,7 +43,7 @@ class Motions:
     @classmethod
     def from_arrays(
         cls,
-        arrays: Sequence[Any],
+        arrays: Sequence[Any] | ndarray,
         channels: Channels | Sequence[str],
         rate_hz: float,
         *,
@@ -55,7 +55,7 @@ class Motions:
         """Make motions of arrays [T_i, D] and check them.
 
         Args:
-            arrays: One array per motion, in the channels' units.
+            arrays: One array per motion, in the channels' units; or one [S, T, D] of them all.
             channels: The channels themselves, or their names.
             rate_hz: Rows per second [Hz].
             observed: One mask [T_i, D] per motion; everything is observed if left out. What is

@@ -6,6 +6,7 @@ with the smallest error is kept, or that which first comes as near as motions we
 """
 
 from dataclasses import replace
+from math import isclose
 
 import jax
 import jax.numpy as jnp
@@ -24,6 +25,9 @@ from motionese.learning.optimisers import recognition_rule
 from motionese.learning.recall import Recalled, recalled
 from motionese.learning.settings import Recognition
 from motionese.network import MTRNN
+
+SAME_RATE = 1e-3
+"""Share by which rates may differ and count as the same."""
 
 
 def recognise(
@@ -55,7 +59,8 @@ def recognise(
             raise ChannelError("the network carries no channels; give the motion as Motions")
         values = np.array(motion, dtype=np.float64, ndmin=1)
         seen = _looked_at(len(values), network.channels, observed, rows)
-        motion = Motions.from_arrays([values], network.channels, rate_hz=1.0, observed=[seen])
+        rate = model.rate_hz if isinstance(model, Fit) else 1.0
+        motion = Motions.from_arrays([values], network.channels, rate, observed=[seen])
     if len(motion) != 1:
         raise SettingError(f"recognise takes one motion, got {len(motion)}; see recognise_all")
     seen = motion.observed[0] & _looked_at(motion.lengths[0], motion.channels, observed, rows)
@@ -94,10 +99,15 @@ def recognise_all(
             code.
 
     Raises:
-        SettingError: Starts of another shape, or channels or levels
-            that the network does not have.
+        SettingError: Starts of another shape, channels or levels that the network does not have,
+            or another rate than the fit's.
     """
     settings = settings or Recognition()
+    if isinstance(model, Fit) and not isclose(motions.rate_hz, model.rate_hz, rel_tol=SAME_RATE):
+        raise SettingError(
+            f"the motions have {motions.rate_hz:g} rows a second, "
+            f"the model was trained at {model.rate_hz:g}"
+        )
     network, motions = carried(model.network if isinstance(model, Fit) else model, motions)
     if starts is not None and starts.shape[::2] != (len(motions), network.size):
         raise SettingError(

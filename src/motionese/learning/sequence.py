@@ -19,7 +19,7 @@ SHORTEST = 10
 
 def generate_sequence(
     network: MTRNN,
-    initial_states: Sequence[Float[ndarray, " N"]],
+    initial_states: Sequence[Float[ndarray, " N"]] | Float[ndarray, "M N"],
     steps: Sequence[int],
     *,
     blend: int | None = None,
@@ -35,8 +35,8 @@ def generate_sequence(
         network: A network that carries channels.
         initial_states: u_0 of all levels, one for every motion.
         steps: Rows of every motion; the blend is part of the later one.
-        blend: Rows of a transition. Where left out, as many as it needs to be no faster than the
-            two motions themselves, up to half of the later one.
+        blend: Rows of a transition. Where left out, as many as it needs to be about as fast as
+            the two motions themselves, up to half of the later one.
         duration: How many times as long the motions last, see `generate`.
 
     Returns:
@@ -46,7 +46,7 @@ def generate_sequence(
         SettingError: No motions, not one number of steps for each, fewer than 2 steps, or no more
             than the blend.
     """
-    if not initial_states or len(steps) != len(initial_states):
+    if not len(initial_states) or len(steps) != len(initial_states):
         raise SettingError(
             f"a sequence needs motions and one number of steps for each, "
             f"got {len(initial_states)} and {len(steps)}"
@@ -61,13 +61,14 @@ def generate_sequence(
         raise ChannelError("the network carries no channels; train it on motions first")
     names, longest = network.channels.names, max(steps)
     whole = generate(network, initial_states[0], steps[0] + longest, duration=duration)
+    former = whole[: steps[0]]
     for state, rows in zip(initial_states[1:], steps[1:], strict=True):
         before, passing = np.split(whole, [len(whole) - longest])
         over = blend
         if over is None:
-            own = generate(network, state, rows + longest, duration=duration)
-            needed = _rows_to_blend(before, own[:rows], passing[0])
-            over = int(min(max(needed, SHORTEST), rows // 2))
+            own = generate(network, state, rows + longest, duration=duration)[:rows]
+            needed = _rows_to_blend(former, own, passing[0])
+            over, former = int(min(max(needed, SHORTEST), rows // 2)), own
         here = dict(zip(names, passing[0], strict=True))
         path = generate(network, placed(network, state, here), rows + longest, duration=duration)
         weight = _minimum_jerk(over)[:, None]

@@ -29,7 +29,7 @@ def train(
     key: Array | None = None,
     padded_to: tuple[int, int] | None = None,
     progress: Callable[[Progress], None] | None = None,
-    checkpoint: Path | None = None,
+    checkpoint: str | Path | None = None,
 ) -> Fit:
     """Train a network on motions, equations (3)–(5).
 
@@ -59,6 +59,7 @@ def train(
         network, motions, epochs, settings or Training(), initial_states, validation, key, padded_to
     )
     course = job.begun
+    checkpoint = None if checkpoint is None else Path(checkpoint)
     if checkpoint and checkpoint.exists():
         course = course.resumed(checkpoint, job.origin)
     status, written = job.ended(course), monotonic()

@@ -1,11 +1,12 @@
 """One level of an MTRNN: how many units it has and how slowly they change."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from motionese.errors import SettingError
 
+LONGEST = 1e30
+"""Time constant [steps] that is still finite in single precision, and any sum of them."""
 DEFAULT_NAMES = ("io", "cf", "cs")
 """Input–output, fast context, slow context: the paper's IO, Cf and Cs."""
 
@@ -35,9 +36,11 @@ class Level:
                 f"{called}: tau must be one value or one per unit ({self.size}), "
                 f"got {len(self.tau)} values"
             )
-        wrong = [t for t in self.taus if not (math.isfinite(t) and t >= 1)]
+        wrong = [t for t in self.taus if not 1 <= t <= LONGEST]
         if wrong:
-            raise SettingError(f"{called}: tau must be finite and ≥ 1 step, got {wrong[0]:g}")
+            raise SettingError(
+                f"{called}: tau must be finite and ≥ 1 step, at most {LONGEST:g}, got {wrong[0]:g}"
+            )
 
     @property
     def taus(self) -> tuple[float, ...]:

@@ -13,24 +13,44 @@ import numpy as np
 import safetensors
 import safetensors.numpy
 from numpy import ndarray
+from pydantic import BaseModel
 
 from motionese.channels import Channel, Channels
 from motionese.errors import MotioneseError, StorageError
 from motionese.files import write_whole
 from motionese.network.levels import Level
-from motionese.network.mtrnn import MTRNN
+from motionese.network.mtrnn import MTRNN, InitialIO
 
 FORMAT, VERSION = "motionese-mtrnn", 1
+
+
+class _Level(BaseModel):
+    size: int
+    tau: float | tuple[float, ...]
+    name: str
+
+
+class _Channel(BaseModel):
+    name: str
+    unit: str
+    low: float
+    high: float
+
+
+class _Description(BaseModel):
+    """What a model's file tells beside its arrays."""
+
+    levels: tuple[_Level, ...]
+    channels: tuple[_Channel, ...] | None
+    learned_bias: bool
+    initial_io: InitialIO
+    facts: Mapping[str, Any]
 
 
 def write_network(
     path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: Mapping[str, Any]
 ) -> None:
-    """Write a network together with further arrays and JSON-able facts, whole or not at all.
-
-    Raises:
-        StorageError: It cannot be written there.
-    """
+    """Write a network together with further arrays and JSON-able facts, whole or not at all."""
     structure = {
         "format": FORMAT,
         "version": VERSION,
@@ -45,10 +65,7 @@ def write_network(
     }
     own = {"weights": network.weights, "bias": network.bias, "tau": network.tau}
     tensors = {name: np.ascontiguousarray(value) for name, value in {**own, **arrays}.items()}
-    try:
-        write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
-    except OSError as error:
-        raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
+    write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
 
 
 def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]:
@@ -63,34 +80,31 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
     """
     structure, tensors = _contents(path)
     try:
-        sizes = [int(level["size"]) for level in structure["levels"]]
-        units = sum(sizes)
+        told = _Description(**structure)
+        units = sum(level.size for level in told.levels)
         expected = {"weights": (units, units), "bias": (units,), "tau": (units,)}
         for name, shape in expected.items():
             _check_tensor(path, name, tensors.get(name), shape)
-        levels = [
-            Level(size, tuple(tau) if isinstance(tau := level["tau"], list) else tau, level["name"])
-            for size, level in zip(sizes, structure["levels"], strict=True)
-        ]
-        given, facts = structure["channels"], dict(structure["facts"])
         network = MTRNN(
-            levels,
+            [Level(level.size, level.tau, level.name) for level in told.levels],
             key=jax.random.key(0),
-            learned_bias=bool(structure["learned_bias"]),
-            initial_io=structure["initial_io"],
-            channels=None if given is None else Channels(Channel(**c) for c in given),
+            learned_bias=told.learned_bias,
+            initial_io=told.initial_io,
+            channels=None
+            if told.channels is None
+            else Channels(Channel(**vars(c)) for c in told.channels),
         )
     except StorageError:
         raise
     except MotioneseError as error:
         raise StorageError(f"{path}: no valid network: {error}") from error
-    except (KeyError, TypeError, ValueError) as error:
+    except (TypeError, ValueError) as error:
         raise StorageError(f"{path}: its description of the network is incomplete") from error
     own = [jnp.asarray(tensors.pop(name)) for name in ("weights", "bias", "tau")]
     return (
         eqx.tree_at(lambda n: (n.weights, n.bias, n.tau), network, tuple(own)),
         tensors,
-        facts,
+        dict(told.facts),
     )
 
 

@@ -6,7 +6,8 @@ from motionese.recordings.preparing import prepare
 from motionese.recordings.ranges import range_of
 from motionese.recordings.reading import FORMATS, read, write
 from motionese.recordings.recording import Episode, Recording
-from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
+from motionese.recordings.survey import survey
+from motionese.recordings.survey_numbers import ChannelNumbers, EpisodeNumbers, Survey
 
 __all__ = [
     "FORMATS",

@@ -33,7 +33,7 @@ def rate_of(recording: Recording, given_hz: float | None) -> float:
         if given_hz is None:
             raise RecordingError(
                 f"{recording.source}: tells neither times nor a rate; "
-                "give the rate [Hz] it was recorded at: --rate"
+                "give the rate [Hz] it was recorded at: --rate (or, of a table, its times: --time)"
             )
         return given_hz
     if not SLOWEST_HZ <= told <= FASTEST_HZ:

@@ -49,7 +49,11 @@ FORMATS = {
         mcap.write,
     ),
     "csv": Format(
-        ".csv or a folder of them", (".csv", ".tsv", ".txt"), ("*.csv",), csv.read, csv.write
+        ".csv or a folder of them",
+        (*csv.SUFFIXES, ".txt"),
+        ("*.[cC][sS][vV]", "*.[tT][sS][vV]"),
+        csv.read,
+        csv.write,
     ),
 }
 """By name, in the order in which a folder is tried."""

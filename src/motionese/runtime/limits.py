@@ -9,6 +9,9 @@ from numpy import ndarray
 from motionese.errors import ControlError
 from motionese.runtime.model import RuntimeModel
 
+FAR = 1.0
+"""How far beyond its limits, in their widths, a robot may be when a loop begins."""
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -48,6 +51,22 @@ class Limiter:
                 )
         self._clamped = np.zeros(len(self._channels), dtype=np.int64)
         self._slowed = np.zeros(len(self._channels), dtype=np.int64)
+
+    def check_start(self, row: ndarray) -> None:
+        """Refuse a first reading [D] that tells of a broken sensor or of another unit.
+
+        Commands are led from there to the limits, so that one has to be able to trust it.
+
+        Raises:
+            ControlError: A channel lies beyond its limits by more than their width.
+        """
+        for name, at, low, high in zip(self._channels, row, self._low, self._high, strict=True):
+            if max(low - at, at - high) > FAR * (high - low):
+                raise ControlError(
+                    f"first reading: channel '{name}' is at {at:g}, far outside its limits "
+                    f"{low:g} to {high:g}: check the sensor and its unit, bring the robot nearer, "
+                    "or give wider limits"
+                )
 
     def limit(self, wanted: ndarray, before: ndarray) -> ndarray:
         """Return the commands [D] that may be sent after those sent before.

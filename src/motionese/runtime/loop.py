@@ -58,7 +58,8 @@ class ControlLoop:
             limits: Limits of the commands; the model's ranges where left out.
             watchdog_s: How long [s] sensors may be silent, and how long a cycle may hang.
             stop: Brings the robot to a halt. It is called once, from another thread if need be:
-                when a cycle hangs, when `sense` or `act` raises, when a prediction is not finite.
+                when a cycle hangs, sensors fall silent, `sense` or `act` raises, a prediction is
+                not finite, or Ctrl-C is pressed.
             clock: The machine's monotonic clock where left out.
 
         Raises:
@@ -88,20 +89,25 @@ class ControlLoop:
         Limiter(model, self._setup.limits, rate)
 
     def end(self) -> None:
-        """Ask a running loop to end before its next command: from `sense`, `act` or a thread."""
+        """Ask the loop to end before its next command: from `sense`, `act` or another thread.
+
+        Asked between two runs, the next one ends at once.
+        """
         self._setup.asked_to_end.set()
 
     def run(self, *parts: Part | str) -> Ran:
         """Play motions one after another, from where the robot is.
 
-        The first reading places the robot; until it has come nothing is sent.
+        The first reading places the robot; until it has come nothing is sent. A channel that it
+        leaves out is taken to be where the motion was recorded. Where the robot is elsewhere, the
+        network finds its way to the motion in a few steps: limit the speeds.
 
         Raises:
-            ControlError: A motion that the model does not know, or a reading that does not fit its
-                channels. `stop` is called before any error of a running loop is raised.
+            ControlError: A motion that the model does not know, a reading that does not fit its
+                channels, or a first one far outside the limits. `stop` is called before any error
+                of a running loop is raised.
         """
         schedule = scheduled(self._setup.model, parts)
-        self._setup.asked_to_end.clear()
         stop = Once(self._stop)
         with Watchdog(self._setup.watchdog_s, stop) as watchdog:
             try:
@@ -109,7 +115,9 @@ class ControlLoop:
             except BaseException:
                 stop()
                 raise
-            if ran.ended is Ended.NOT_FINITE:
+            finally:
+                self._setup.asked_to_end.clear()
+            if ran.ended not in {Ended.DONE, Ended.STOPPED}:
                 stop()
         return ran
 

@@ -1,11 +1,14 @@
 """What a control loop plays: motions one after another."""
 
 from dataclasses import dataclass
+from numbers import Integral
 
 from numpy import ndarray
 
 from motionese.errors import ControlError
 from motionese.runtime.model import RuntimeModel
+from motionese.runtime.player import Blend
+from motionese.runtime.transition import Transition, course
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,21 +19,41 @@ class Part:
         start: The name of a learned motion, or initial states [N].
         steps: How many rows of it are sent; all of the learned motion where left out. Of the first
             part that is one less: its first row is where the robot is already.
-        blend: Over how many of these rows the part before passes into this one; with 0 this one
-            just sets out from where the one before has come to.
+        blend: Over how many of these rows the part before passes into this one. Where left out,
+            as many as it needs to be about as fast as the two motions themselves, up to half of
+            this one. With 0 this one just sets out from where the one before has come to, and may
+            rush to its own way.
     """
 
     start: str | ndarray
     steps: int | None = None
-    blend: int = 0
+    blend: int | None = None
 
 
-def scheduled(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[tuple[Part, int]]:
-    """Return the parts with how many steps each is played; `ControlError` where none can be."""
+@dataclass(frozen=True, eq=False)
+class Scheduled:
+    """A part as it will be played: so many steps, and how the part before passes into it."""
+
+    start: str | ndarray
+    steps: int
+    blend: Blend
+
+
+def scheduled(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[Scheduled]:
+    """Return the parts as they will be played; `ControlError` where one cannot be."""
     if not parts:
         raise ControlError("nothing to play: name a learned motion, or give its initial states")
     given = [Part(part) if isinstance(part, str) else part for part in parts]
-    return [(part, _rows_sent(model, part, not i)) for i, part in enumerate(given)]
+    steps = [_rows_sent(model, part, not i) for i, part in enumerate(given)]
+    blends: list[Blend] = [part.blend or 0 for part in given]
+    if any(part.blend is None for part in given[1:]):
+        # Before the robot moves: inside a cycle there is no time for it.
+        rows = [steps[0] + 1, *steps[1:]]
+        courses = [course(model, p.start, n) for p, n in zip(given, rows, strict=True)]
+        for i, part in enumerate(given[1:], start=1):
+            if part.blend is None:
+                blends[i] = Transition(courses[i - 1], courses[i]).rows_from
+    return [Scheduled(p.start, n, b) for p, n, b in zip(given, steps, blends, strict=True)]
 
 
 def _rows_sent(model: RuntimeModel, part: Part, first: bool) -> int:
@@ -42,10 +65,13 @@ def _rows_sent(model: RuntimeModel, part: Part, first: bool) -> int:
             steps = model.lengths[part.start] - first
     if steps is None:
         raise ControlError(f"{called}: the model does not tell how long it is; give its steps")
-    if steps < 1:
-        raise ControlError(f"{called} must be played for 1 step or more, got {steps}")
-    if first and part.blend:
+    if not isinstance(steps, Integral) or steps < 1:
+        raise ControlError(
+            f"{called} must be played for a whole number of steps, 1 or more, got {steps}"
+        )
+    blend = part.blend
+    if first and blend:
         raise ControlError(f"{called} is the first: it has none before it to blend with")
-    if not 0 <= part.blend <= steps:
-        raise ControlError(f"{called}: its blend must be 0 to its {steps} steps, got {part.blend}")
+    if blend is not None and not (isinstance(blend, Integral) and 0 <= blend <= steps):
+        raise ControlError(f"{called}: its blend must be 0 to its {steps} steps, got {blend}")
     return steps

@@ -1,6 +1,6 @@
 """A motion as it is played: readings in, the next row out, all in the channels' units."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy import ndarray
@@ -13,6 +13,8 @@ from motionese.runtime.step import Stepper
 from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
 
 Share = float | Mapping[str, float]
+Blend = int | Callable[[ndarray], int]
+"""Steps of a blend, or what tells them from the row [D] at which it begins."""
 
 
 class Player:
@@ -32,7 +34,7 @@ class Player:
         self._stepper = Stepper(model)
         self._state = state
         self._former: State | None = None
-        self._coming: tuple[ndarray, int] | None = None
+        self._coming: tuple[ndarray, Blend] | None = None
         self._blended = self._blend = 0
         self._row = state.y[: len(model.channels)].astype(np.float64)
 
@@ -46,13 +48,13 @@ class Player:
         """Whether the network has not left the numbers."""
         return bool(np.isfinite(self._row).all() and np.isfinite(self._state.u).all())
 
-    def blend_to(self, start: str | ndarray, steps: int) -> None:
+    def blend_to(self, start: str | ndarray, steps: Blend) -> None:
         """Pass to another motion, whose first row is the next one of the present motion.
 
         Over so many rows both are played and the row goes from one to the other by the minimum
         jerk's weights 10 s³ − 15 s⁴ + 6 s⁵ (Flash & Hogan 1985); with 0 at once.
         """
-        if steps < 0:
+        if not callable(steps) and steps < 0:
             raise ControlError(f"a blend takes 0 steps or more, got {steps}")
         if self._former is not None:
             left = self._blend - 1 - self._blended
@@ -72,7 +74,8 @@ class Player:
             weight = minimum_jerk(self._blended / self._blend)
             row = (1 - weight) * self._moved(self._former, sensed) + weight * row
         if self._coming is not None:
-            u, self._blend = self._coming
+            u, steps = self._coming
+            self._blend = steps(self._model.from_unit(row)) if callable(steps) else steps
             self._former, self._coming, self._blended = self._state, None, 0
             self._state = self._model.placed(u, np.clip(row, CLIP_LOW, CLIP_HIGH))
         if self._blended + 1 >= self._blend:

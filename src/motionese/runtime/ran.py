@@ -19,7 +19,7 @@ SENTENCES = {
     Ended.DONE: "everything was played to its end, {steps} steps",
     Ended.STOPPED: "the loop was asked to end, after {steps} steps",
     Ended.SENSORS_SILENT: "no reading came for more than {patience:g} s; "
-    "the last command holds, that of step {steps}",
+    "the last command sent is that of step {steps}",
     Ended.HUNG: "sense or act did not return for more than {patience:g} s; "
     "the last command sent is that of step {steps}",
     Ended.NOT_FINITE: "the prediction after step {steps} is not finite; it was not sent",

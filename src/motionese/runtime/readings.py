@@ -27,7 +27,7 @@ def row_of(reading: Reading, channels: Sequence[str]) -> ndarray:
         given = [np.nan if (v := given.get(name)) is None else v for name in channels]
     try:
         row = np.array(given, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ControlError(f"a reading must hold numbers, got {reading!r}") from error
     if row.shape != (len(channels),):
         raise ControlError(

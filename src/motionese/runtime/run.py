@@ -11,7 +11,7 @@ from motionese.runtime.clock import Clock
 from motionese.runtime.limits import Limiter, Limits
 from motionese.runtime.model import RuntimeModel
 from motionese.runtime.pace import Pace
-from motionese.runtime.parts import Part
+from motionese.runtime.parts import Scheduled
 from motionese.runtime.player import Player, Share
 from motionese.runtime.ran import SENTENCES, Ended, Ran
 from motionese.runtime.readings import Reading, row_of
@@ -43,7 +43,7 @@ class Run:
         self._heard, self._steps = setup.clock.now(), 0
         self._before = np.empty(0)
 
-    def play(self, schedule: list[tuple[Part, int]]) -> Ran:
+    def play(self, schedule: list[Scheduled]) -> Ran:
         """Play the parts and tell how it went."""
         ended = self._parts(schedule)
         return Ran(
@@ -57,20 +57,21 @@ class Run:
             sentence=SENTENCES[ended].format(steps=self._steps, patience=self._setup.watchdog_s),
         )
 
-    def _parts(self, schedule: list[tuple[Part, int]]) -> Ended:
+    def _parts(self, schedule: list[Scheduled]) -> Ended:
         reading = self._sensed()
         while not np.isfinite(reading).any():
             if ended := self._over():
                 return ended
             self._pace.done()
             reading = self._sensed()
+        self._limiter.check_start(reading)
         model = self._setup.model
-        player = Player(model, model.begin(schedule[0][0].start, reading), self._setup.share)
+        player = Player(model, model.begin(schedule[0].start, reading), self._setup.share)
         self._before = np.where(np.isfinite(reading), reading, player.row)
-        for place, (part, steps) in enumerate(schedule):
+        for place, part in enumerate(schedule):
             if place:
                 player.blend_to(part.start, part.blend)
-            for _ in range(steps):
+            for _ in range(part.steps):
                 if self._steps:
                     reading = self._sensed()
                 if ended := self._over() or self._acted(player, reading):

@@ -1,18 +1,17 @@
 """Tables of text: one file with a column that names the episode, or a folder with one file each.
 
-A first line names the columns, as "shoulder [rad]" where the unit is known. An empty cell is a
-value that was not observed. Separated by comma, semicolon or tab; outside comma-separated files a
-decimal comma is understood.
+A first line names the columns, as "shoulder [rad]" where the unit is known; comments may stand
+above it. An empty cell is a value that was not observed. Separated by comma, semicolon, tab, or
+blanks; outside comma-separated files a decimal comma is understood.
 """
 
-import csv
-import io
-from collections.abc import Iterable, Sequence
+import shlex
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError, unknown
@@ -20,16 +19,20 @@ from motionese.recordings.formats.csv_columns import (
     EPISODE,
     TIME,
     header,
-    is_counter,
-    label,
+    is_measured,
     named_column,
-    seconds,
     split_unit,
 )
-from motionese.recordings.formats.csv_table import Table, numbers, read_table
-from motionese.recordings.formats.written import write_file
+from motionese.recordings.formats.csv_table import Table, read_table
+from motionese.recordings.formats.csv_values import numbers, times
+from motionese.recordings.formats.csv_writing import write
 from motionese.recordings.natural_order import natural
 from motionese.recordings.recording import Episode, Recording
+
+__all__ = ["read", "write"]
+
+SUFFIXES = (".csv", ".tsv")
+"""Of the files in a folder that are read; others may be notes."""
 
 
 def read(path: Path, episode: str | None = None, time: str | None = None) -> Recording:
@@ -46,46 +49,13 @@ def read(path: Path, episode: str | None = None, time: str | None = None) -> Rec
     if not path.is_dir():
         return _file(path, episode, time, alone=True)
     # Some systems leave hidden files beside those of the user.
-    files = sorted(path.glob("[!.]*.csv"), key=lambda f: natural(f.name))
+    files = [file for file in path.glob("[!.]*") if file.suffix.lower() in SUFFIXES]
     if not files:
-        raise RecordingError(f"{path}: holds no .csv file")
+        raise RecordingError(f"{path}: holds no {' or '.join(SUFFIXES)} file")
+    files.sort(key=lambda f: natural(f.name))
     parts = [_file(file, episode, time, alone=False) for file in files]
-    return replace(
-        parts[0], source=path, episodes=tuple(e for p in parts for e in _as_first(p, parts[0]))
-    )
-
-
-def write(path: Path, recording: Recording) -> None:
-    """Write one table: episode, time [s], and the channels; empty where nothing was observed.
-
-    Raises:
-        RecordingError: A channel is called as the columns of episode or time are, or `path`
-            cannot be written.
-    """
-    taken = {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}
-    if taken:
-        raise RecordingError(f"{path}: a csv file has its own column '{taken.pop()}'; rename it")
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    times = [_times(e, recording.rate_hz) for e in recording.episodes]
-    timed = all(t is not None for t in times)
-    labels = [label(c, u) for c, u in zip(recording.channels, recording.units, strict=True)]
-    table.writerow([EPISODE[0], *([f"{TIME[0]} [s]"] if timed else []), *labels])
-    for episode, stamps in zip(recording.episodes, times, strict=True):
-        columns: list[Iterable[str]] = [[episode.name] * len(episode.values)]
-        if timed and stamps is not None:
-            columns.append(map(repr, stamps.tolist()))
-        for values, seen in zip(episode.values.T, episode.observed.T, strict=True):
-            cells = zip(values.tolist(), seen.tolist(), strict=True)
-            columns.append(repr(v) if s else "" for v, s in cells)
-        table.writerows(zip(*columns, strict=True))
-    write_file(path, text.getvalue().encode())
-
-
-def _times(episode: Episode, rate_hz: float | None) -> Float[ndarray, " T"] | None:
-    if episode.times is None and rate_hz is not None:
-        return np.arange(len(episode.values)) / rate_hz
-    return episode.times
+    episodes = tuple(e for p in parts for e in _as_first(p, parts[0]))
+    return replace(parts[0], source=path, episodes=episodes)
 
 
 def _file(path: Path, episode: str | None, time: str | None, *, alone: bool) -> Recording:
@@ -97,40 +67,39 @@ def _file(path: Path, episode: str | None, time: str | None, *, alone: bool) -> 
         raise RecordingError(
             f"{path}: column '{names[by_name]}' cannot be episode and time at once"
         )
-    columns = _columns(table, names, by_name, by_time, alone)
-    times = None if by_time is None else columns.pop(by_time) * seconds(names[by_time])
-    split = [split_unit(names[c]) for c in columns]
-    if not split:
+    may_name = alone and by_name is None
+    columns = {
+        i: found
+        for i, name in enumerate(names)
+        if name and i not in {by_name, by_time} and (found := _measured(table, i, may_name))
+    }
+    if not columns:
         raise RecordingError(f"{path}: no column holds numbers to learn from")
-    channels = tuple(name for name, _ in split)
-    values = np.stack(list(columns.values()), axis=1)
-    observed = np.stack([table.filled(c) for c in columns], axis=1)
+    channels, units = zip(*(split_unit(names[i]) for i in columns), strict=True)
+    values, observed = (np.stack(kind, axis=1) for kind in zip(*columns.values(), strict=True))
+    stamps = None if by_time is None else times(table, by_time)
     episodes = tuple(
-        Episode(name, _rising(table, times, rows, name), values[rows], observed[rows])
+        Episode(name, _rising(table, stamps, rows, name), values[rows], observed[rows])
         for name, rows in _episodes(table, by_name, alone)
     )
-    usual = tuple(c for c in channels if not is_counter(c))
-    units = tuple(unit for _, unit in split)
+    usual = tuple(c for c in channels if is_measured(c))
     return Recording(path, channels, units, {}, None, episodes, usual or channels)
 
 
-def _columns(
-    table: Table, names: Sequence[str], by_name: int | None, by_time: int | None, alone: bool
-) -> dict[int, Float[ndarray, " T"]]:
-    """Return the columns that hold numbers; text is left out where it cannot name the episodes."""
-    columns: dict[int, Float[ndarray, " T"]] = {}
-    for column, name in enumerate(names):
-        if not name or column == by_name:
-            continue
-        values = numbers(table, column, name)
-        if values is not None:
-            columns[column] = values
-        elif column == by_time or (by_name is None and alone):
-            raise RecordingError(
-                f"{table.path}: column '{name}' holds text, not numbers"
-                + ("" if column == by_time else f"; if it names the episodes: --episode {name}")
-            )
-    return columns
+def _measured(
+    table: Table, column: int, may_name: bool
+) -> tuple[Float[ndarray, " T"], Bool[ndarray, " T"]] | None:
+    """Return a column of numbers; None for text, unless it may be what names the episodes."""
+    found = numbers(table, column)
+    if found is not None or not may_name:
+        return found
+    name, words = table.header[column], {cell for cell in table.columns[column] if cell}
+    if len(words) > 1:
+        raise RecordingError(
+            f"{table.path}: column '{name}' holds text such as '{min(words)[:40]}', not numbers; "
+            f"if it names the episodes: --episode {shlex.quote(name)}, else take it out"
+        )
+    return None
 
 
 def _episodes(table: Table, by_name: int | None, alone: bool) -> list[tuple[str, slice]]:
@@ -169,7 +138,7 @@ def _rising(
     if len(back):
         raise RecordingError(
             f"{table.where(rows.start + int(back[0]) + 1)}: time must rise inside episode "
-            f"'{name}', got {here[back[0] + 1]:g} s after {here[back[0]]:g} s"
+            f"'{name}', got {here[back[0] + 1]:.12g} s after {here[back[0]]:.12g} s"
         )
     return here
 

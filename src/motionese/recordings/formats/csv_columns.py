@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from motionese.errors import RecordingError, unknown
+from motionese.recordings.formats.bookkeeping import is_bookkeeping
+from motionese.recordings.formats.csv_cells import is_number
 
 EPISODE = (
     "episode",
@@ -16,16 +18,21 @@ EPISODE = (
     "sequence",
     "motion",
 )
-TIME = ("time", "t", "timestamp", "time_s", "time_ms", "time_us", "time_ns", "stamp")
-COUNTERS = ("frame", "frame_index", "index", "row")
-"""Columns that number the rows: never taken unless they are chosen."""
 SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
 """How long one of each unit of time is [s]."""
+TIME = (
+    *("time", "t", "timestamp", "stamp", "seconds"),
+    *(f"{name}_{unit}" for name in ("time", "timestamp") for unit in SECONDS),
+)
+COUNTERS = ("frame", "frame_index", "index", "row", "sample", "unnamed: 0")
+"""Columns that number the rows: never taken unless they are chosen."""
+UNIT = r"rad|deg|°|degrees|radians|%|px|pixels|[cmkµu]?(m|s|N|V|A|g)|sec|ns|Nm|N·m|N\*m|°C|Pa"
+"""Units that are understood in round brackets, in which names may have other things as well."""
 
 
 def header(path: Path, cells: Sequence[str]) -> Sequence[str]:
     """Return the columns' names; `RecordingError` if the first line holds values instead."""
-    values = [cell for cell in cells if _is_number(cell)]
+    values = [cell for cell in cells if is_number(cell.replace(",", "."))]
     # pandas calls the columns of a bare array 0, 1, 2, …; these are names.
     counted = len(values) > 1 and values == [str(i) for i in range(len(values))]
     named = named_column(path, cells, None, (*EPISODE, *TIME)) is not None
@@ -50,38 +57,33 @@ def named_column(
             if given in candidates:
                 return list(candidates).index(given)
         raise RecordingError(f"{path}: {unknown('column', given, filter(None, names))}")
-    folded = [name.casefold() for name in bare]
+    # ROS calls the time %time, PlotJuggler __time.
+    folded = [name.casefold().lstrip("%_# ") for name in bare]
     return next((folded.index(name) for name in usual if name in folded), None)
 
 
-def is_counter(name: str) -> bool:
-    """Whether a column of this name only numbers the rows."""
-    return name.casefold() in COUNTERS
+def is_measured(name: str) -> bool:
+    """Whether a column of this name holds more than the row's number, stamp or header."""
+    return name.casefold() not in COUNTERS and not is_bookkeeping(name)
 
 
-def seconds(name: str) -> float:
-    """Return the unit of a column of times [s], from "t [ms]" or "time_ms"; seconds else."""
+def seconds(name: str) -> float | None:
+    """Return the unit of a column of times [s], from "t [ms]" or "time_ms", if it tells one."""
     bare, unit = split_unit(name)
-    return SECONDS.get(unit or bare.rpartition("_")[2].casefold(), 1.0)
+    return SECONDS.get(unit or bare.rpartition("_")[2].casefold())
 
 
 def split_unit(name: str) -> tuple[str, str]:
-    """Return the name and the unit of "shoulder [rad]"; an empty unit where none is given.
+    """Return the name and the unit of "shoulder [rad]" or "shoulder (rad)"; empty where none is.
 
-    Without the space the bracket belongs to the name, as in "position[0]".
+    Without the space a square bracket belongs to the name, as in "position[0]".
     """
-    found = re.fullmatch(r"(.*\S)\s+\[([^\[\]]*)\]", name)
+    found = re.fullmatch(r"(.*\S)\s+\[([^\[\]]*)\]", name) or re.fullmatch(
+        rf"(.*[^\s(])\s*\((({UNIT})(/s(\^?2|²)?)?)\)", name
+    )
     return (found[1], found[2].strip()) if found else (name, "")
 
 
 def label(name: str, unit: str) -> str:
     """Return the header from which `split_unit` gives back the name and the unit."""
     return f"{name} [{unit}]" if unit or split_unit(name) != (name, "") else name
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell.replace(",", "."))
-    except ValueError:
-        return False
-    return True

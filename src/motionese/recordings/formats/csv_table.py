@@ -1,4 +1,4 @@
-"""A text file as columns of cells, and columns of cells as numbers; which line is at fault."""
+"""A text file as columns of cells; which line is at fault."""
 
 import csv
 import io
@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from jaxtyping import Bool, Float
-from numpy import ndarray
-
 from motionese.errors import RecordingError
+from motionese.recordings.formats.csv_cells import is_number
 
 SEPARATORS = ",;\t"
+COMMENTS = ("#", "%", "sep=")
+"""What lines above a table begin with that are no rows of it, or that name its columns."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +20,7 @@ class Table:
 
     Attributes:
         path: The file, for messages.
-        separator: What stands between two cells.
+        separator: What stands between two cells; a blank for any number of blanks.
         header: The cells of the first line.
         columns: The cells below, by column.
         lines: The line of the file in which each row ends, counted from 1.
@@ -37,84 +36,94 @@ class Table:
         """Return the file and line of a row, for messages."""
         return f"{self.path}, line {self.lines[row]}"
 
-    def filled(self, column: int) -> Bool[ndarray, " T"]:
-        """Return which cells of a column are not empty."""
-        return np.array([bool(cell) for cell in self.columns[column]], dtype=bool)
-
 
 def read_table(path: Path) -> Table:
-    """Read a text file; `RecordingError` where it is none, or its lines differ in width."""
+    """Read a text file; `RecordingError` where it is none, or a line is wider than its header."""
+    text = _text(path)
+    lines = io.StringIO(text, newline="").readlines()
+    above = _lines_above(lines)
+    separator = _separator(lines[above:])
+    rows, ends = _rows(path, [*["\n"] * above, *lines[above:]], separator)
+    if above and rows:
+        # NumPy's savetxt and ROS write the names of the columns as a comment.
+        named = _cells(lines[above - 1].lstrip("#% "), separator)
+        values = [cell for cell in rows[0] if is_number(cell.replace(",", "."))]
+        if values and len(named) == len(rows[0]):
+            rows, ends = [named, *rows], [above, *ends]
+    # Spreadsheets end a table with lines of nothing but separators.
+    while rows and not any(rows[-1]):
+        del rows[-1], ends[-1]
+    if len(rows) < 2:
+        raise RecordingError(
+            f"{path}: {'holds no rows below its header' if rows else 'the file is empty'}"
+        )
+    if len(rows[-1]) < len(rows[0]) and not text.endswith(("\n", "\r")):
+        raise RecordingError(
+            f"{path}, line {ends[-1]}: the file is cut short inside a row "
+            f"({len(rows[-1])} cells, the header has {len(rows[0])})"
+        )
+    header, *below = (
+        _fitted(path, cells, line, len(rows[0])) for cells, line in zip(rows, ends, strict=True)
+    )
+    return Table(path, separator, tuple(header), tuple(zip(*below, strict=True)), tuple(ends[1:]))
+
+
+def _text(path: Path) -> str:
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        return path.read_bytes().decode("utf-8-sig")
     except OSError as error:
         raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise RecordingError(
             f"{path}: not a text file in UTF-8 (byte {error.start}); save it as UTF-8"
         ) from error
-    first = text.lstrip("\r\n").partition("\n")[0]
-    separator = max(SEPARATORS, key=first.count)
-    rows, lines = [], []
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+
+
+def _lines_above(lines: Sequence[str]) -> int:
+    """Return how many empty lines and comments stand above the table."""
+    for i, line in enumerate(lines):
+        if line.strip() and not line.lstrip().startswith(COMMENTS):
+            return i
+    return len(lines)
+
+
+def _separator(lines: Sequence[str]) -> str:
+    first = lines[0] if lines else ""
+    if any(mark in first for mark in SEPARATORS):
+        return max(SEPARATORS, key=first.count)
+    rows = [line for line in lines[:3] if line.strip()]
+    # A name may hold blanks; a number does not.
+    return " " if len(rows) > 1 and len(rows[1].split()) > 1 else ","
+
+
+def _rows(path: Path, lines: Sequence[str], separator: str) -> tuple[list[list[str]], list[int]]:
+    rows: list[list[str]] = []
+    ends: list[int] = []
+    reader = csv.reader(lines, delimiter=separator, skipinitialspace=separator == " ", strict=True)
     try:
         for row in reader:
-            if row:
+            is_comment = row and rows and len(row) != len(rows[0]) and row[0].startswith(COMMENTS)
+            if row and not is_comment:
                 rows.append([_one_line(cell) for cell in row])
-                lines.append(reader.line_num)
+                ends.append(reader.line_num)
     except csv.Error as error:
         raise RecordingError(f"{path}, line {reader.line_num}: not a csv file: {error}") from error
-    # Spreadsheets end a table with lines of nothing but separators.
-    while rows and not any(rows[-1]):
-        del rows[-1], lines[-1]
-    if len(rows) < 2:
-        raise RecordingError(
-            f"{path}: {'holds no rows below its header' if rows else 'the file is empty'}"
-        )
-    width = len(rows[0])
-    for cells, line in zip(rows, lines, strict=True):
-        if len(cells) != width:
-            raise RecordingError(f"{path}, line {line}: {len(cells)} cells, the header has {width}")
-    columns = tuple(zip(*rows[1:], strict=True))
-    return Table(path, separator, tuple(rows[0]), columns, tuple(lines[1:]))
+    return rows, ends
 
 
-def numbers(table: Table, column: int, name: str) -> Float[ndarray, " T"] | None:
-    """Return a column as numbers, NaN where a cell is empty; None if all of it is text.
+def _cells(line: str, separator: str) -> list[str]:
+    cells = line.split(None if separator == " " else separator)
+    return [cell.strip(' "\r\n') for cell in cells]
 
-    Raises:
-        RecordingError: Text among numbers.
-    """
-    cells = table.columns[column]
-    try:
-        return _as_numbers(cells)
-    except ValueError:
-        pass
-    if table.separator != "," and not any("." in cell for cell in cells):
-        cells = tuple(cell.replace(",", ".") for cell in cells)
-    wrong = [row for row, cell in enumerate(cells) if cell and not _is_number(cell)]
-    if not wrong:
-        return _as_numbers(cells)
-    if len(wrong) == sum(map(bool, cells)):
-        return None
-    raise RecordingError(
-        f"{table.where(wrong[0])}, column '{name}': "
-        f"expected a number, got '{table.columns[column][wrong[0]][:40]}'"
-    )
+
+def _fitted(path: Path, cells: list[str], line: int, width: int) -> list[str]:
+    """Return as many cells as the header has: what is missing at the end of a row is empty."""
+    if any(cells[width:]):
+        raise RecordingError(f"{path}, line {line}: {len(cells)} cells, the header has {width}")
+    return cells[:width] + [""] * (width - len(cells))
 
 
 def _one_line(cell: str) -> str:
     """Return a cell without blanks around it, and without the line breaks of spreadsheets."""
     text = cell.strip()
     return " ".join(text.split()) if "\n" in text or "\r" in text else text
-
-
-def _as_numbers(cells: Sequence[str]) -> Float[ndarray, " T"]:
-    return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True

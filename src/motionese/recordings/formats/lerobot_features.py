@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
+from motionese.recordings.formats.fault import fault
 from motionese.recordings.formats.widest import WIDEST
 
 STATE, ACTION = "observation.state", "action"
@@ -79,10 +80,8 @@ def read_info(path: Path) -> Info:
     except OSError as error:
         raise RecordingError(f"{file}: cannot be read: {error.strerror or error}") from error
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
         raise RecordingError(
-            f"{file}: not the info.json of a LeRobotDataset: {where}: {first['msg']}"
+            f"{file}: not the info.json of a LeRobotDataset: {fault(error)}"
         ) from error
 
 

@@ -18,8 +18,9 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.bookkeeping import is_bookkeeping
 from motionese.recordings.formats.even_rows import times_unless_even
-from motionese.recordings.formats.mcap_numbers import is_bookkeeping, numbers
+from motionese.recordings.formats.mcap_numbers import numbers
 from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
 from motionese.recordings.formats.mcap_writing import write
 from motionese.recordings.natural_order import natural

@@ -1,14 +1,9 @@
 """The numbers in a JSON message, each under the path that leads to it."""
 
-import re
 from collections.abc import Iterator
 from typing import Any
 
 from motionese.recordings.formats.widest import WIDEST
-
-_BOOKKEEPING = re.compile(
-    r"\.(header|stamp|timestamp|seq|sec|secs|nsec|nsecs|nanosec|nanoseconds)(\.|$)"
-)
 
 
 def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
@@ -31,11 +26,6 @@ def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
                 yield from numbers(item, f"{path}[{i}]")
     elif isinstance(value, int | float) and not isinstance(value, bool):
         yield path, float(value)
-
-
-def is_bookkeeping(path: str) -> bool:
-    """Tell whether a path leads to a header, a time stamp or a message's sequence number."""
-    return _BOOKKEEPING.search(path) is not None
 
 
 def _labels(names: Any) -> list[str] | None:

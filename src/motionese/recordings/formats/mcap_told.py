@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
+from motionese.recordings.formats.fault import fault
 
 METADATA_KEY = "motionese"
 
@@ -32,9 +33,7 @@ class Told(BaseModel):
         try:
             return cls.model_validate_json(text)
         except ValidationError as error:
-            first = error.errors(include_url=False)[0]
-            where = ".".join(str(part) for part in first["loc"]) or "all of it"
             raise RecordingError(
                 f"{file}: its metadata '{METADATA_KEY}' is not what this version writes: "
-                f"{where}: {first['msg']}"
+                f"{fault(error)}"
             ) from error

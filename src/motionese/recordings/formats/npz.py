@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from motionese.errors import RecordingError
+from motionese.recordings.formats.fault import fault
 from motionese.recordings.formats.numpy_files import UNREADABLE, why
 from motionese.recordings.formats.written import write_file
 from motionese.recordings.recording import Episode, Recording
@@ -107,10 +108,7 @@ def _metadata(path: Path, file: Any) -> Metadata:
     try:
         return Metadata.model_validate_json(str(file[METADATA]))
     except ValidationError as error:
-        first = error.errors()[0]
-        name = ".".join(map(str, first["loc"])) or "channels"
-        what = first["msg"].removeprefix("Value error, ")
-        raise RecordingError(f"{path}: its metadata are damaged: {name}: {what}") from error
+        raise RecordingError(f"{path}: its metadata are damaged: {fault(error)}") from error
 
 
 def _episode(path: Path, file: Any, i: int, name: str, width: int) -> Episode:
