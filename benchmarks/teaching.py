@@ -4,7 +4,8 @@ A robot goes through a short experiment first. Then a simulated hand draws its m
 with the tempo and the tremor of a hand, as in the tests: from lifting the pen to the verdict that
 is shown, understanding while the hand moves, samples of the pointer that reach the robot. At last
 the command is started again and again: how long until the page can be used, with everything
-compiled before. Chromium shares the processor with the robot here.
+compiled before; what is drawn on it before the robot is awake is understood when it is. Chromium
+shares the processor with the robot here.
 
     python benchmarks/teaching.py
 """
@@ -57,19 +58,20 @@ def draw_all(person: Person) -> dict[str, list[float]]:
     return found
 
 
-def seconds_until_usable(browser: Browser, run: Path) -> tuple[float, float]:
-    """Return how long from the command to the page's first line, and until it can be drawn on."""
+def seconds_until(browser: Browser, run: Path) -> dict[str, float]:
+    """Return how long from the command until the page is shown, can be drawn on, is answered."""
     with tempfile.TemporaryDirectory() as folder:
         began = monotonic()
         with served(Path(folder), run) as server:
             person = at_the_page(browser, server.address)
             person.page.goto(server.address)
-            shown = monotonic() - began
-            while not person.state()["ready"]:
-                sleep(0.01)
-            usable = monotonic() - began
+            took = {"shown": monotonic() - began}
+            for what in ("watching", "ready"):
+                while not person.state().get(what):
+                    sleep(0.01)
+                took[what] = monotonic() - began
             person.page.context.close()
-    return shown, usable
+    return took
 
 
 def main() -> None:
@@ -83,7 +85,7 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
         with served(Path(name), run) as server:
             found = draw_all(at_the_page(browser, server.address).arrives())
-        starts = np.array([seconds_until_usable(browser, run) for _ in range(STARTS)])
+        starts = [seconds_until(browser, run) for _ in range(STARTS)]
         browser.close()
     table = Table(title=f"{len(MOTIONS)} motions drawn, {STARTS} starts of the command")
     for heading in ("", "median", "worst", "target", ""):
@@ -92,8 +94,9 @@ def main() -> None:
         ("pen up to verdict shown [s]", found["verdict"], max, VERDICT_S, False),
         ("understandings a second", found["understood"], min, UNDERSTOOD_HZ, True),
         ("pointer samples that arrive", found["arrived"], min, ARRIVED, True),
-        ("command to page shown [s]", starts[:, 0], max, None, False),
-        ("command to page usable [s]", starts[:, 1], max, USABLE_S, False),
+        ("command to page shown [s]", [s["shown"] for s in starts], max, None, False),
+        ("command to page usable [s]", [s["watching"] for s in starts], max, USABLE_S, False),
+        ("command to robot awake [s]", [s["ready"] for s in starts], max, None, False),
     ):
         middle, bad = float(np.median(values)), float(worst(values))
         row = [label, f"{middle:.2f}", f"{bad:.2f}"]

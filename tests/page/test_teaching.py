@@ -20,6 +20,8 @@ def test_a_newborn_learns_and_grows_and_is_found_again(parent):
     parent.shows("UL ↓")
     learned = parent.lets_it_learn()["learned"]
     assert learned["after_cm"] < 0.7 * learned["before_cm"]
+    attempts = parent.page.get_by_test_id("entry").inner_text()
+    assert f"{learned['after_cm']:.1f} cm" in attempts, "what it is left with comes last"
     levels = parent.page.locator("#network svg > g:not(.waiting)")
     assert levels.count() == 2
     parent.presses("grow")

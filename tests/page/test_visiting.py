@@ -3,6 +3,8 @@
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
+from page.serving import served
+
 
 def test_nothing_is_asked_of_others_and_nothing_complains(person):
     person.shows("UR ↓")
@@ -48,3 +50,13 @@ def test_a_killed_worker_comes_back_with_the_session(person, taught):
     assert again["notebook"] == shown
     assert taught.worker().pid != robot.pid
     assert person.shows("UR ↓")["motion"] == "UR ↓"
+
+
+def test_what_is_drawn_while_the_robot_wakes_up_is_understood(open_page, trained, tmp_path):
+    with served(tmp_path, trained) as server:
+        person = open_page(server)
+        person.page.goto(server.address)
+        person.until(lambda state: state.get("watching"))
+        person.draw("UR ↓")
+        verdict = person.until(lambda state: state["verdict"])["verdict"]
+    assert verdict["motion"] == "UR ↓"

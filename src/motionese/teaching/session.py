@@ -16,7 +16,7 @@ from motionese.teaching.recognising import Recogniser, Understood
 from motionese.teaching.training import Told, trained
 from motionese.teaching.verdict import Verdict, judged
 
-PRACTICE = 3
+PRACTICE = 5
 """Imitation loops of one learning: imitate, and train on what the own body did, so many times."""
 
 
@@ -118,7 +118,8 @@ class Teaching:
         """Learn what was shown last by imitating it, as in the experiment's loop, a few times.
 
         The network of the practice after which the imitation was best is kept: one motion alone
-        is little to learn from, and a further practice may lead away again.
+        is little to learn from, and a further practice may lead away again. It is then what the
+        robot does last, and what the notebook ends with.
         """
         shown, began = self._shown(), self.kept
         loop = max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
@@ -137,6 +138,8 @@ class Teaching:
         error, learner, understood = min(practised, key=lambda each: each[0])
         self._become(learner)
         self.shown = replace(self._shown(), understood=understood)
+        if error < imitation.error_cm:
+            self.imitate()
         learned = Learned(shown.entry.number, loop, began, error)
         self.notebook = replace(self.notebook, learned=(*self.notebook.learned, learned))
         return Change(shown.entry.motion, before.error_cm, error)

@@ -76,7 +76,8 @@ export function tidy(now) {
   part("learn").classList.toggle("next", now.step === "performed");
   part("grow").classList.toggle("next", Boolean(session.suggest));
   part("progress").classList.toggle("on", LONG.includes(session.busy));
-  part("legend").hidden = !now.verdict && !now.drawing;
+  for (const line of part("legend").children) line.hidden = !now.lines[line.className];
+  part("legend").hidden = !Object.values(now.lines).some(Boolean);
   part("notebook-empty").hidden = session.notebook.length > 0;
   offerExport(session.notebook.length > 0);
   if (scene) showNetwork(part("network"), scene.levels, session.levels);

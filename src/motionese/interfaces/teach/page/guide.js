@@ -19,6 +19,9 @@ const BUSY = {
   "beginning anew": "A new robot is babbling: it moves its arm and sees what comes of it.",
 };
 
+/** An imitation that misses by less is good: the hand of a person who shows it is no steadier. */
+const WELL_CM = 2;
+
 const KEYS = {
   choosing: "Arrow keys choose the corner to start from. Space begins.",
   planning: "Arrow keys draw from corner to corner. Enter finishes, Escape gives up.",
@@ -64,6 +67,7 @@ function judged({ sentence, motion, confidence }) {
 
 function outcome({ before_cm: before, after_cm: after }) {
   if (after < before) return `Its error fell from ${before.toFixed(1)} to ${cm(after)}.`;
+  if (after < WELL_CM) return `Its error is ${cm(after)}: it does this well.`;
   return `Its error is ${cm(after)}; more examples will help.`;
 }
 
