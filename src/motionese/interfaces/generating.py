@@ -12,7 +12,7 @@ from motionese.interfaces.expressed import reach
 from motionese.interfaces.initial_states import read_initial_states
 from motionese.interfaces.motion_figure import write_figure
 from motionese.interfaces.outputs import PICTURES, RECORDINGS, check_output
-from motionese.learning import Fit, Motions, generate_sequence, load, placed
+from motionese.learning import Fit, Motions, generate_sequence, load
 
 
 def generate_motion(
@@ -57,8 +57,9 @@ def generate_motion(
     states, rows, names = _chosen(fit, known, like, steps, duration)
     if start:
         _check_start(fit.network.channels, start)
-        states[0] = placed(fit.network, states[0], start)
-    path = generate_sequence(fit.network, states, rows, blend=blend, duration=duration)
+    path = generate_sequence(
+        fit.network, states, rows, blend=blend, duration=duration, here=start or None
+    )
     motion = Motions.from_arrays([path], fit.network.channels, fit.rate_hz, names=[names])
     if out.suffix.lower() in PICTURES:
         labels = [(c.name, c.unit) for c in fit.network.channels]
