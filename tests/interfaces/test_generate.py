@@ -153,6 +153,10 @@ WRONG = {
     "start": (["--like", "lift", "--start", "hip=1"], "unknown channel 'hip'"),
     "no value": (["--like", "lift", "--start", "elbow"], "--start elbow: write NAME=0.3"),
     "text": (["--like", "lift", "--start", "elbow=up"], "--start elbow=up: 'up' is no number"),
+    "start far": (
+        ["--like", "lift", "--start", "elbow=40"],
+        "--start elbow=40: where the robot is must lie within the model's reach, -0.",
+    ),
     "start nan": (["--like", "lift", "--start", "elbow=nan"], "channel 'elbow': where the robot"),
     "blend": (["--like", "lift", "wave", "--blend", "20"], "shorter than every motion (20 rows)"),
     "out": (["--like", "lift", "--out", "new"], "--out new: its name must end in "),

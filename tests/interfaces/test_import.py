@@ -33,6 +33,15 @@ def test_empty_cells_are_gaps(arm):
     assert missing == [[], [], [[3, 1]], [], []]
 
 
+def test_what_a_narrow_range_clips_is_told(arm):
+    assert "beyond" not in imported("--range", "shoulder=0:1.2")[1]
+
+    _, told = imported("--range", "shoulder=0:0.5", "x=0:1e9")
+    shoulder = np.concatenate([m[:, 0] for m in arm_motions().values()])
+    share = (shoulder > 0.55).sum() / (4 * len(shoulder))
+    assert told.endswith(f", 4 channels, {share:.1%} beyond their ranges and clipped\n")
+
+
 def test_channels_ranges_and_units_are_chosen(arm):
     motions, _ = imported(
         *("--channels", "y", "sh*", "elbow", "--exclude", "elbow"),

@@ -1,5 +1,6 @@
 """`motionese inspect`: what is in recordings, whatever is wrong with them."""
 
+import numpy as np
 import pytest
 from typed import CHANNELS, arm_motions, refused, typed, write_csv
 
@@ -84,6 +85,24 @@ def test_tables_fit_a_terminal_of_80_columns(arm, monkeypatch):
 
     assert "a_rather_long_name_x" in output
     assert max(map(len, output.splitlines())) <= 80
+
+
+def test_no_digit_is_left_out_at_80_columns(arm, monkeypatch):
+    names = [f"a_rather_long_name_{c}" for c in CHANNELS]
+    write_csv("demos.csv", {n: m / 300 for n, m in arm_motions().items()}, channels=names)
+    monkeypatch.setattr("typed.COLUMNS", "80")
+    output = inspected("demos.csv")
+
+    assert "…" not in output
+    assert output.splitlines()[0].endswith("20 Hz, intervals within 0.0%")
+
+
+def test_a_plot_says_which_channels_it_leaves_out(arm):
+    motions = {n: np.hstack([m] * 8) for n, m in arm_motions().items()}
+    write_csv("demos.csv", motions, channels=[f"c{i}" for i in range(32)])
+    inspected("demos.csv")
+
+    assert "(the first 30 of 32 channels)" in (arm / "demos.svg").read_text()
 
 
 WRONG = {

@@ -244,6 +244,19 @@ def test_ctrl_c_keeps_what_was_learned(arm, begin):
     assert (arm / "new.checkpoint").exists()
 
 
+def test_ctrl_c_before_training_promises_nothing(arm, monkeypatch):
+    def pressed(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Motions, "read", pressed)
+    status, _, errors = typed("train", "data.npz", "--out", "new.safetensors")
+
+    assert (status, errors) == (
+        130,
+        "\nmotionese: stopped; there is no training to go on with\n",
+    )
+
+
 def test_progress_fits_a_terminal_of_80_columns(capsys):
     from rich.console import Console
 

@@ -106,6 +106,25 @@ def test_a_training_interrupted_after_its_last_epoch_has_nothing_left_to_do(
     assert same(resumed, train(small, motions.chosen([0, 1]), settings=CHOSEN))
 
 
+def test_a_training_interrupted_while_it_is_judged_has_nothing_left_to_do(
+    small, motions, tmp_path, monkeypatch
+):
+    path, learned = tmp_path / "checkpoint", motions.chosen([0, 1])
+
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(job.Job, "fit", pressed)
+        with pytest.raises(KeyboardInterrupt):
+            train(small, learned, settings=CHOSEN, checkpoint=path)
+    calls = []
+    resumed = train(small, learned, settings=CHOSEN, checkpoint=path, progress=calls.append)
+
+    assert calls == []
+    assert same(resumed, train(small, learned, settings=CHOSEN))
+
+
 def test_a_checkpoint_is_written_meanwhile_for_those_who_are_killed(
     small, motions, tmp_path, monkeypatch
 ):

@@ -110,3 +110,16 @@ def test_what_cannot_follow_one_another_is_refused(network, fit):
         generate_sequence(fit.network, states, [24, 18], duration=3.0)
     with pytest.raises(ChannelError, match="carries no channels; train it on motions first"):
         generate_sequence(network, states, [24, 18])
+
+
+def test_a_motion_sets_out_from_where_the_robot_is_without_rushing(fit, motions):
+    length, channels = motions.lengths[0], motions.channels
+    away = motions.values[0][0] + 0.3 * channels.spans
+    here = dict(zip(channels.names, away, strict=True))
+
+    path = generate_sequence(fit.network, fit.initial_states[:1], [length], here=here)
+    rushing = generate_sequence(fit.network, fit.initial_states[:1], [length], here=here, blend=0)
+
+    np.testing.assert_allclose(path[0], away)
+    assert np.abs(path[1] - path[0]).max() < 0.2 * np.abs(rushing[1] - rushing[0]).max()
+    np.testing.assert_allclose(path[length // 2 :], rushing[length // 2 :])

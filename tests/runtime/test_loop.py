@@ -8,6 +8,7 @@ from small_models import Clock
 
 from motionese.errors import ControlError
 from motionese.runtime import ControlLoop, Ended, Limits, Part, Player
+from motionese.runtime.parts import scheduled
 
 HERE = {"lift": 0.4, "turn": -20.0, "grip": 0.5}
 WIDE = Limits(ranges={"lift": (-9, 9), "turn": (-999, 999), "grip": (-9, 9)})
@@ -43,6 +44,7 @@ def test_the_loop_sends_what_the_player_plays_from_where_the_robot_is(model, rob
     ran = loop_of(model, robot).run("reach")
 
     player = Player(model, model.begin("reach", HERE))
+    player.set_out(scheduled(model, ("reach",))[0].blend)
     np.testing.assert_allclose(robot.sent, [player.step() for _ in range(40)], rtol=1e-6)
     assert (ran.ended, ran.steps, ran.missed, ran.skipped) == (Ended.DONE, 40, 0, 0)
     assert ran.sentence == "everything was played to its end, 40 steps"
@@ -53,7 +55,7 @@ def test_readings_are_mixed_in_and_missing_ones_predicted(model, robot):
     readings = [HERE, {"lift": -0.5}, None, {"turn": 10.0, "lift": 0.0}, {"grip": np.nan}]
     given = iter(readings)
     loop_of(model, robot, lambda: next(given), share={"lift": 0.5, "grip": 1.0}).run(
-        Part("wave", 5)
+        Part("wave", 5, blend=0)
     )
 
     player = Player(model, model.begin("wave", HERE), {"lift": 0.5, "grip": 1.0})
@@ -62,7 +64,8 @@ def test_readings_are_mixed_in_and_missing_ones_predicted(model, robot):
 
 def test_parts_follow_one_another(model, robot):
     state = model.initial("wave")
-    ran = loop_of(model, robot).run("reach", Part(state, 25, blend=10), Part("wave", blend=0))
+    first, second, third = Part("reach", blend=0), Part(state, 25, blend=10), Part("wave", blend=0)
+    ran = loop_of(model, robot).run(first, second, third)
 
     player = Player(model, model.begin("reach", HERE))
     expected = [player.step() for _ in range(40)]
@@ -251,7 +254,6 @@ def test_a_model_without_a_rate_is_given_one(model, robot):
         (("rech",), "unknown initial state 'rech'; did you mean 'reach'"),
         ((Part("reach", 0),), "motion 'reach' must be played for .*, 1 or more, got 0"),
         ((Part(np.zeros(12)),), "a motion: the model does not tell how long it is; give its steps"),
-        ((Part("reach", blend=5),), "'reach' is the first: it has none before it"),
         (("reach", Part("wave", 5, blend=6)), "its blend must be 0 to its 5 steps, got 6"),
         (("reach", Part(np.zeros(3), 5)), r"one value per unit \(12\), got shape \(3,\)"),
     ],

@@ -38,7 +38,8 @@ def test_a_sequence_is_the_library_s(model, saved, first, steps):
     other, lengths = {"reach": "wave", "wave": "reach"}[first], {"reach": 41, "wave": 31}
     order = [0, 1] if first == "reach" else [1, 0]
 
-    library = generate_sequence(network, list(states[order]), [lengths[first], steps])
+    here = dict(zip(CHANNELS.names, recorded(model, first), strict=True))
+    library = generate_sequence(network, states[order], [lengths[first], steps], here=here)
     path = sent(model, first, Part(other, steps), sense=lambda: recorded(model, first))
 
     assert apart(path, library[1:]) < 1e-5
@@ -51,7 +52,8 @@ def test_initial_states_follow_one_another_as_named_motions_do(model, saved, sca
     _, network, states = saved
     slower = model.with_duration(scale)
 
-    library = generate_sequence(network, list(states), [50, 60], duration=scale)
+    here = dict(zip(CHANNELS.names, recorded(model, "reach"), strict=True))
+    library = generate_sequence(network, states, [50, 60], duration=scale, here=here)
     parts = [Part(states[0], 49), Part(states[1], 60)]
     path = sent(slower, *parts, sense=lambda: recorded(model, "reach"))
 
@@ -60,11 +62,12 @@ def test_initial_states_follow_one_another_as_named_motions_do(model, saved, sca
 
 def test_the_way_from_where_the_robot_is_adds_no_speed(model):
     """A robot that is elsewhere rushes to the first motion; what follows is no faster for it."""
-    path = sent(model, "reach", Part("wave", 200), sense=lambda: [1.9, 40.0, 0.05])
+    first = Part("reach", blend=0)
+    path = sent(model, first, Part("wave", 200), sense=lambda: [1.9, 40.0, 0.05])
     own = Transition(course(model, "reach", 41), course(model, "wave", 200))
     rows = own.rows_from(path[40])
 
-    given = sent(model, "reach", Part("wave", 200, blend=rows), sense=lambda: [1.9, 40.0, 0.05])
+    given = sent(model, first, Part("wave", 200, blend=rows), sense=lambda: [1.9, 40.0, 0.05])
 
     rushed = np.abs(np.diff(path[:40], axis=0)).max(0) > own.former.speed
     assert rushed.any()
@@ -79,7 +82,8 @@ def test_every_part_is_played_beforehand_as_long_as_it_will_be(model, monkeypatc
         return Course(np.zeros(3), np.full(3, {"reach": 0.1, "wave": 0.01}[start]), rows)
 
     monkeypatch.setattr("motionese.runtime.parts.course", course)
-    parts = scheduled(model, ("reach", Part("wave", 200), Part("wave", 900), Part("wave", blend=3)))
+    first, last = Part("reach", blend=0), Part("wave", blend=3)
+    parts = scheduled(model, (first, Part("wave", 200), Part("wave", 900), last))
 
     assert played == [("reach", 41), ("wave", 200), ("wave", 900), ("wave", 31)]
     assert [part.steps for part in parts] == [40, 200, 900, 31]
@@ -88,11 +92,12 @@ def test_every_part_is_played_beforehand_as_long_as_it_will_be(model, monkeypatc
     assert (parts[0].blend, parts[3].blend) == (0, 3)
 
 
-def test_one_motion_alone_is_not_played_beforehand(model, monkeypatch):
+def test_what_has_its_blends_is_not_played_beforehand(model, monkeypatch):
     monkeypatch.setattr("motionese.runtime.parts.course", lambda *_: pytest.fail("played"))
 
-    scheduled(model, ("reach",))
-    scheduled(model, ("reach", Part("wave", blend=0), Part("reach", blend=20)))
+    first = Part("reach", blend=0)
+    scheduled(model, (first,))
+    scheduled(model, (first, Part("wave", blend=0), Part("reach", blend=20)))
 
 
 @pytest.mark.parametrize(
@@ -117,3 +122,17 @@ def test_rows_of_a_transition(here, speed, rows, expected):
     if rows > 50:
         turned = Transition(slower, Course(np.zeros(2), np.array(speed), rows))
         assert turned.rows_from(np.array(here)) == expected
+
+
+@pytest.mark.parametrize("here", [[1.9, 40.0, 0.05], [-1.0, -60.0, 0.02]])
+def test_the_first_part_sets_out_from_standing_still_as_in_the_library(model, saved, here):
+    _, network, states = saved
+    told = dict(zip(CHANNELS.names, here, strict=True))
+
+    library = generate_sequence(network, states[:1], [200], here=told)
+    path = sent(model, Part("reach", 199), sense=lambda: here)
+
+    assert apart(path, library[1:]) < 1e-5
+    rushing = sent(model, Part("reach", 199, blend=0), sense=lambda: here)
+    first_step = np.abs(np.stack([path[0], rushing[0]]) - here) / WIDTHS
+    assert first_step[0].max() < 0.1 * first_step[1].max()

@@ -4,10 +4,10 @@ from pathlib import Path
 
 from rich.console import Console
 
-from motionese.errors import MotioneseError
+from motionese.errors import MotioneseError, SettingError
 from motionese.interfaces.importing import told
 from motionese.interfaces.onnx_step import TOLERANCE, export_onnx
-from motionese.interfaces.outputs import check_output
+from motionese.interfaces.outputs import MODEL_SUFFIX, check_output
 from motionese.learning import Motions, load
 
 
@@ -23,6 +23,8 @@ def export_model(console: Console, model: Path, out: Path) -> None:
 
 def export_data(console: Console, source: Path, out: Path, to: str | None) -> None:
     """Write motions in another format, and tell what was written."""
+    if source.suffix == MODEL_SUFFIX:
+        raise SettingError(f"{source}: a model, not recordings; write its step with --onnx FILE")
     try:
         motions = Motions.read(source)
     except MotioneseError as error:

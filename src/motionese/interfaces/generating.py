@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
+from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
+from motionese.interfaces.expressed import reach
 from motionese.interfaces.initial_states import read_initial_states
 from motionese.interfaces.motion_figure import write_figure
 from motionese.interfaces.outputs import PICTURES, RECORDINGS, check_output
-from motionese.learning import Fit, Motions, generate_sequence, load, placed
+from motionese.learning import Fit, Motions, generate_sequence, load
 
 
 def generate_motion(
@@ -40,6 +42,7 @@ def generate_motion(
     """
     check_output("--out", out, (*RECORDINGS, *PICTURES))
     fit = load(model)
+    assert fit.network.channels is not None, "a trained network carries channels"
     # Refuses a scale before rows are counted with it.
     fit.network.lasting(duration)
     known = (
@@ -53,9 +56,10 @@ def generate_motion(
         )
     states, rows, names = _chosen(fit, known, like, steps, duration)
     if start:
-        states[0] = placed(fit.network, states[0], start)
-    path = generate_sequence(fit.network, states, rows, blend=blend, duration=duration)
-    assert fit.network.channels is not None, "a trained network carries channels"
+        _check_start(fit.network.channels, start)
+    path = generate_sequence(
+        fit.network, states, rows, blend=blend, duration=duration, here=start or None
+    )
     motion = Motions.from_arrays([path], fit.network.channels, fit.rate_hz, names=[names])
     if out.suffix.lower() in PICTURES:
         labels = [(c.name, c.unit) for c in fit.network.channels]
@@ -69,6 +73,17 @@ def generate_motion(
         f"{out}: {names}, {len(path)} rows, {(len(path) - 1) / fit.rate_hz:.2f} s; fastest in its "
         f"range is {channel.name} with {speeds[fastest]:.3g} {channel.unit or 'units'}/s"
     )
+
+
+def _check_start(channels: Channels, start: Mapping[str, float]) -> None:
+    """Refuse a start, perhaps in another unit, that the network cannot take up."""
+    for channel, lowest, highest in zip(channels, *reach(channels), strict=True):
+        value = start.get(channel.name, lowest)
+        if value < lowest or value > highest:
+            raise SettingError(
+                f"--start {channel.name}={value:g}: where the robot is must lie within the model's "
+                f"reach, {lowest:.4g} to {highest:.4g}{f' {channel.unit}' * bool(channel.unit)}"
+            )
 
 
 def _chosen(

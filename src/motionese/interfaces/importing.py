@@ -6,6 +6,7 @@ from typing import Any
 
 from rich.console import Console
 
+from motionese.interfaces.expressed import share_beyond
 from motionese.learning import Motions
 
 
@@ -32,15 +33,16 @@ def import_motions(
 
 
 def told(motions: Motions) -> str:
-    """Return in words how many motions there are, of what length, at what rate."""
+    """Return in words how many motions there are, of what length and rate, and what is missing."""
     shortest, longest = min(motions.lengths), max(motions.lengths)
     rows = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
     count = f"{len(motions)} motion{'' if len(motions) == 1 else 's'}"
     width = len(motions.channels)
     seen = sum(int(mask.sum()) for mask in motions.observed)
-    gaps = 1 - seen / (sum(motions.lengths) * width)
+    gaps, beyond = 1 - seen / (sum(motions.lengths) * width), share_beyond(motions)
     return (
         f"{count} of {rows} rows at {motions.rate_hz:g} Hz, "
         f"{width} channel{'' if width == 1 else 's'}"
         + (f", {gaps:.1%} not observed" if gaps else "")
+        + (f", {beyond:.1%} beyond their ranges and clipped" if beyond else "")
     )

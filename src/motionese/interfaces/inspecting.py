@@ -42,7 +42,7 @@ def inspect_recordings(
     found = chosen(read(source, **columns), choice)
     numbers = survey(found)
     rate = numbers.rate_hz or rate_hz
-    console.print(_heading(found, numbers, rate))
+    console.print(_heading(found, numbers, rate), soft_wrap=True)
     console.print(_channels(numbers))
     console.print(_episodes(numbers, rate))
     write_figure(
@@ -72,7 +72,7 @@ def _heading(found: Recording, numbers: Survey, rate: float | None) -> str:
 
 def _channels(numbers: Survey) -> Table:
     table = number_table(
-        "channel", "unit", "low", "high", "mean step", "still", "gaps", "NaN", "inf"
+        "channel", "unit", "low", "high", "mean\nstep", "still", "gaps", "NaN", "inf"
     )
     table.columns[1].justify = "left"
     for c in numbers.channels:

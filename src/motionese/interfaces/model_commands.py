@@ -2,12 +2,14 @@
 # ruff: noqa: PLC0415
 
 import os
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from motionese.interfaces import data_options as options
+from motionese.interfaces.checkpoint_file import stopped
 from motionese.interfaces.data_commands import PANEL
 from motionese.interfaces.plainly import plainly
 from motionese.one_core import one_core
@@ -31,7 +33,9 @@ def train(
         str,
         typer.Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps."),
     ] = "40:5,8:70",
-    io_tau: Annotated[float, typer.Option(metavar="TAU", help="τ of the IO level [steps].")] = 2.0,
+    io_tau: Annotated[
+        float, typer.Option(metavar="TAU", help="τ of the IO level, in steps.")
+    ] = 2.0,
     epochs: Annotated[int | None, typer.Option(min=1, help="Default: 3000.")] = None,
     held_out: Annotated[
         str | None,
@@ -69,7 +73,7 @@ def train(
     margin: options.Margin = None,
 ) -> None:
     """Train a network on recordings; tell how good it is in closed loop."""
-    with plainly("stopped; the same command with --resume goes on"):
+    with plainly(partial(stopped, out)):
         os.environ.update(one_core())
         from rich.console import Console
 

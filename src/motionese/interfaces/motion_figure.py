@@ -50,6 +50,8 @@ def write_figure(
     with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
         # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
+        if len(channels) > MOST:
+            title += f" (the first {MOST} of {len(channels)} channels)"
         drawn = finished(_figure(paths, names, channels[:MOST], rate_hz, title), "motions")
     try:
         write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)

@@ -4,10 +4,12 @@ from rich.table import Table
 
 
 def number_table(*headings: str) -> Table:
-    """Return a table whose first column keeps its names whole and whose others hold numbers."""
+    """Return a table whose first column holds names and whose others hold numbers."""
     table = Table(*headings)
+    for column in table.columns:
+        # Where there is no room a cell goes on in the next line: no digit is ever left out.
+        column.overflow = "fold"
     table.columns[0].no_wrap = True
-    table.columns[0].overflow = "fold"
     for column in table.columns[1:]:
         column.justify = "right"
     return table

@@ -10,6 +10,7 @@ from motionese.recordings import FORMATS
 RECORDINGS = tuple(suffix for known in FORMATS.values() for suffix in known.suffixes)
 """Suffixes of recordings that are one file."""
 PICTURES = (".svg", ".png")
+MODEL_SUFFIX = ".safetensors"
 
 
 def check_output(option: str, path: Path, suffixes: Sequence[str]) -> None:

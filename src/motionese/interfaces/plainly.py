@@ -1,6 +1,6 @@
 """One sentence instead of a traceback, and the exit status that goes with it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import typer
@@ -13,13 +13,13 @@ WRONG, INTERRUPTED = 2, 130
 
 
 @contextmanager
-def plainly(stopped: str) -> Iterator[None]:
+def plainly(stopped: str | Callable[[], str]) -> Iterator[None]:
     """Say in one sentence what the user can put right, or that Ctrl-C has stopped the command.
 
     That includes files that the system refuses to read or write, as on a full disk.
 
     Args:
-        stopped: What to say after Ctrl-C.
+        stopped: What to say after Ctrl-C, or a function that returns it then.
     """
     try:
         with interruptible():
@@ -31,7 +31,8 @@ def plainly(stopped: str) -> Iterator[None]:
             raise
         raise _left(f"{error.filename}: {error.strerror or error}") from error
     except KeyboardInterrupt as error:
-        typer.echo(f"\nmotionese: {stopped}", err=True)
+        told = stopped if isinstance(stopped, str) else stopped()
+        typer.echo(f"\nmotionese: {told}", err=True)
         raise typer.Exit(INTERRUPTED) from error
 
 

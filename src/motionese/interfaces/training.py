@@ -9,18 +9,18 @@ from pydantic import ValidationError
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
+from motionese.interfaces.checkpoint_file import checkpoint_of
 from motionese.interfaces.held_out import split
 from motionese.interfaces.importing import told
 from motionese.interfaces.level_text import read_levels
 from motionese.interfaces.logs import open_logs
-from motionese.interfaces.outputs import check_output
+from motionese.interfaces.outputs import MODEL_SUFFIX, check_output
 from motionese.interfaces.training_display import TrainingDisplay
 from motionese.interfaces.training_table import channel_table, verdict
 from motionese.learning import Fit, Motions, Progress, Training, save, train
 from motionese.learning.course import epochs_done
 from motionese.network import MTRNN, Level
 
-SUFFIX = ".safetensors"
 BY_LEVEL = ("bound", "noise")
 """Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
 
@@ -129,8 +129,8 @@ def _by_level(told: str) -> dict[str, str]:
 
 def _checkpoint(out: Path, resume: bool) -> Path:
     """Return where training is kept, after checking that it may be begun, or gone on with."""
-    check_output("--out", out, (SUFFIX,))
-    checkpoint = out.with_suffix(".checkpoint")
+    check_output("--out", out, (MODEL_SUFFIX,))
+    checkpoint = checkpoint_of(out)
     if resume and not checkpoint.exists():
         ended = "; it has ended, the model is there" if out.exists() else ""
         raise StorageError(f"--resume: there is no training to go on with at {checkpoint}{ended}")

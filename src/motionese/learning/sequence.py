@@ -1,6 +1,6 @@
 """One motion after another without a jump: each begins where the one before it is."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -24,6 +24,7 @@ def generate_sequence(
     *,
     blend: int | None = None,
     duration: float = 1.0,
+    here: Mapping[str, float] | None = None,
 ) -> Float[ndarray, "T D"]:
     """Generate motions one after another in closed loop, blending each into the next.
 
@@ -38,6 +39,9 @@ def generate_sequence(
         blend: Rows of a transition. Where left out, as many as it needs to be about as fast as
             the two motions themselves, up to half of the later one.
         duration: How many times as long the motions last, see `generate`.
+        here: Where the robot is, by channel, in the channels' units: it sets out from standing
+            still there, in a transition as between motions. Where left out, the first motion
+            begins where it was recorded, as it was.
 
     Returns:
         One path of as many rows as all motions have, in the channels' units.
@@ -62,6 +66,8 @@ def generate_sequence(
     names, longest = network.channels.names, max(steps)
     whole = generate(network, initial_states[0], steps[0] + longest, duration=duration)
     former = whole[: steps[0]]
+    if here is not None:
+        whole = _set_out(network, initial_states[0], whole, steps[0], here, blend, duration)
     for state, rows in zip(initial_states[1:], steps[1:], strict=True):
         before, passing = np.split(whole, [len(whole) - longest])
         over = blend
@@ -69,12 +75,34 @@ def generate_sequence(
             own = generate(network, state, rows + longest, duration=duration)[:rows]
             needed = _rows_to_blend(former, own, passing[0])
             over, former = int(min(max(needed, SHORTEST), rows // 2)), own
-        here = dict(zip(names, passing[0], strict=True))
-        path = generate(network, placed(network, state, here), rows + longest, duration=duration)
+        left = dict(zip(names, passing[0], strict=True))
+        path = generate(network, placed(network, state, left), rows + longest, duration=duration)
         weight = _minimum_jerk(over)[:, None]
         path[:over] = (1 - weight) * passing[:over] + weight * path[:over]
         whole = np.concatenate([before, path])
     return whole[:-longest]
+
+
+def _set_out(
+    network: MTRNN,
+    state: Float[ndarray, " N"],
+    own: Float[ndarray, "T D"],
+    rows: int,
+    here: Mapping[str, float],
+    blend: int | None,
+    duration: float,
+) -> Float[ndarray, "T D"]:
+    """Return a motion that begins by standing still here, instead of its own path."""
+    path = generate(network, placed(network, state, here), len(own), duration=duration)
+    standing, over = path[0].copy(), blend
+    if network.channels is not None:
+        standing[network.channels.indices(here)] = list(here.values())
+    if over is None:
+        needed = _rows_to_blend(own[:rows], own[:rows], standing)
+        over = int(min(max(needed, SHORTEST), rows // 2))
+    weight = _minimum_jerk(over)[:, None]
+    path[:over] = (1 - weight) * standing + weight * path[:over]
+    return path
 
 
 def _rows_to_blend(

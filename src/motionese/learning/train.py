@@ -73,11 +73,11 @@ def train(
             if checkpoint and monotonic() - written > CHECKPOINT_EVERY_S:
                 course.write(checkpoint, job.origin)
                 written = monotonic()
+        fit = job.fit(course, status)
     except KeyboardInterrupt:
-        if checkpoint:
+        if checkpoint and not (status and status.failed):
             course.write(checkpoint, job.origin)
         raise
-    fit = job.fit(course, status)
     if checkpoint:
         checkpoint.unlink(missing_ok=True)
     return fit

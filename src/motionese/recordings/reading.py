@@ -117,7 +117,7 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
         raise SettingError(
             f"{path}: its name does not tell the format; end it in "
             f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
-            f"or name one of {', '.join(FORMATS)}"
+            f"or name the format (--to), one of {', '.join(FORMATS)}"
         )
     _check(recording)
     FORMATS[name].write(path, recording)

@@ -19,10 +19,10 @@ class Part:
         start: The name of a learned motion, or initial states [N].
         steps: How many rows of it are sent; all of the learned motion where left out. Of the first
             part that is one less: its first row is where the robot is already.
-        blend: Over how many of these rows the part before passes into this one. Where left out,
-            as many as it needs to be about as fast as the two motions themselves, up to half of
-            this one. With 0 this one just sets out from where the one before has come to, and may
-            rush to its own way.
+        blend: Over how many of these rows the part before, or standing still before the first one,
+            passes into this one. Where left out, as many as it needs to be about as fast as the
+            motions themselves, up to half of this one. With 0 this one just sets out from where
+            the robot has come to, and may rush to its own way.
     """
 
     start: str | ndarray
@@ -46,13 +46,13 @@ def scheduled(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[Schedu
     given = [Part(part) if isinstance(part, str) else part for part in parts]
     steps = [_rows_sent(model, part, not i) for i, part in enumerate(given)]
     blends: list[Blend] = [part.blend or 0 for part in given]
-    if any(part.blend is None for part in given[1:]):
+    if any(part.blend is None for part in given):
         # Before the robot moves: inside a cycle there is no time for it.
         rows = [steps[0] + 1, *steps[1:]]
         courses = [course(model, p.start, n) for p, n in zip(given, rows, strict=True)]
-        for i, part in enumerate(given[1:], start=1):
+        for i, part in enumerate(given):
             if part.blend is None:
-                blends[i] = Transition(courses[i - 1], courses[i]).rows_from
+                blends[i] = Transition(courses[max(i - 1, 0)], courses[i]).rows_from
     return [Scheduled(p.start, n, b) for p, n, b in zip(given, steps, blends, strict=True)]
 
 
@@ -70,8 +70,6 @@ def _rows_sent(model: RuntimeModel, part: Part, first: bool) -> int:
             f"{called} must be played for a whole number of steps, 1 or more, got {steps}"
         )
     blend = part.blend
-    if first and blend:
-        raise ControlError(f"{called} is the first: it has none before it to blend with")
     if blend is not None and not (isinstance(blend, Integral) and 0 <= blend <= steps):
         raise ControlError(f"{called}: its blend must be 0 to its {steps} steps, got {blend}")
     return steps

@@ -33,7 +33,7 @@ class Player:
         self._model, self._share = model, shares(model, share)
         self._stepper = Stepper(model)
         self._state = state
-        self._former: State | None = None
+        self._former: State | ndarray | None = None
         self._coming: tuple[ndarray, Blend] | None = None
         self._blended = self._blend = 0
         self._row = state.y[: len(model.channels)].astype(np.float64)
@@ -47,6 +47,11 @@ class Player:
     def finite(self) -> bool:
         """Whether the network has not left the numbers."""
         return bool(np.isfinite(self._row).all() and np.isfinite(self._state.u).all())
+
+    def set_out(self, steps: Blend) -> None:
+        """Pass from standing still at the present row into the motion, over so many rows."""
+        self._blend = steps(self.row) if callable(steps) else steps
+        self._former, self._blended = (self._row.copy() if self._blend > 1 else None), 0
 
     def blend_to(self, start: str | ndarray, steps: Blend) -> None:
         """Pass to another motion, whose first row is the next one of the present motion.
@@ -72,7 +77,7 @@ class Player:
         if self._former is not None:
             self._blended += 1
             weight = minimum_jerk(self._blended / self._blend)
-            row = (1 - weight) * self._moved(self._former, sensed) + weight * row
+            row = (1 - weight) * self._former_row(self._former, sensed) + weight * row
         if self._coming is not None:
             u, steps = self._coming
             self._blend = steps(self._model.from_unit(row)) if callable(steps) else steps
@@ -82,6 +87,9 @@ class Player:
             self._former = None
         self._row = row
         return self.row
+
+    def _former_row(self, former: State | ndarray, sensed: ndarray) -> ndarray:
+        return former if isinstance(former, np.ndarray) else self._moved(former, sensed)
 
     def _moved(self, state: State, sensed: ndarray) -> ndarray:
         """Move a state on; its row [D] in the unit interval, an array of its own."""

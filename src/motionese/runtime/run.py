@@ -71,6 +71,8 @@ class Run:
         for place, part in enumerate(schedule):
             if place:
                 player.blend_to(part.start, part.blend)
+            else:
+                player.set_out(part.blend)
             for _ in range(part.steps):
                 if self._steps:
                     reading = self._sensed()
