@@ -99,8 +99,8 @@ class ControlLoop:
         """Play motions one after another, from where the robot is.
 
         The first reading places the robot; until it has come nothing is sent. A channel that it
-        leaves out is taken to be where the motion was recorded. Where the robot is elsewhere, the
-        network finds its way to the motion in a few steps: limit the speeds.
+        leaves out is taken to be where the motion was recorded. Where the robot is elsewhere, it
+        passes into the first motion as from one motion to another, see `Part.blend`.
 
         Raises:
             ControlError: A motion that the model does not know, a reading that does not fit its
