@@ -11,8 +11,8 @@ const font = () => `11px ${getComputedStyle(document.body).fontFamily}`;
 
 /** Lines over time in a small place. */
 class Lines {
-  constructor(place, series, { range, incrs }) {
-    Object.assign(this, { place, series, range, incrs, size: 30 });
+  constructor(place, series, { range, incrs, unit = "" }) {
+    Object.assign(this, { place, series, range, incrs, unit, size: 30 });
     this.#build();
     new ResizeObserver(() => this.plot.setSize(this.#extent())).observe(place);
     onScheme(() => this.#build());
@@ -46,7 +46,13 @@ class Lines {
         },
         axes: [
           { ...axis, show: false },
-          { ...axis, size: this.size, space: 18, incrs: this.incrs },
+          {
+            ...axis,
+            size: this.size,
+            space: 18,
+            incrs: this.incrs,
+            values: (_, values) => values.map((value) => `${value}${this.unit}`),
+          },
         ],
         series: [
           {},
@@ -72,6 +78,7 @@ export class Activity {
       {
         range: (_, low, high) => [Math.min(low ?? -20, -20) - 5, Math.max(high ?? 40, 40) + 5],
         incrs: [20, 40, 80],
+        unit: "°",
       },
     );
     this.io = new Lines(
