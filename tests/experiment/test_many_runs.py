@@ -39,6 +39,7 @@ def workers_of_this_process():
     return [child for child in children if "spawn_main" in " ".join(child.cmdline())]
 
 
+@pytest.mark.slow
 def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
     tmp_path, small_settings, undisturbed
 ):
@@ -58,6 +59,7 @@ def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
     assert not workers_of_this_process()
 
 
+@pytest.mark.slow
 def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, small_settings, undisturbed):
     killed = []
 

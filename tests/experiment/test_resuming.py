@@ -110,6 +110,7 @@ def test_an_ending_that_is_none_is_refused(tmp_path, content):
         Run(condition("TD/MD"), 5, tmp_path).ended()
 
 
+@pytest.mark.slow
 def test_recorded_demonstrations_stand_in_for_the_scripted_caregiver(
     tmp_path, small_settings, compiled
 ):

@@ -31,6 +31,7 @@ def left_alive(processes):
     return psutil.wait_procs(processes, timeout=10)[1]
 
 
+@pytest.mark.slow
 def test_ctrl_c_stops_it_at_once_and_the_same_command_goes_on(begin, here, undisturbed):
     process = begin(*REPRODUCE)
     wait_for(here / RUN / "loop-01.safetensors")
