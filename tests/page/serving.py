@@ -57,7 +57,9 @@ class Served:
         (robot,) = (
             child
             for child in psutil.Process(self.process.pid).children()
-            if any("spawn_main" in argument for argument in child.cmdline())
+            # One that was killed is a zombie until it is waited for, and has no command line.
+            if child.status() != psutil.STATUS_ZOMBIE
+            and any("spawn_main" in argument for argument in child.cmdline())
         )
         return robot
 

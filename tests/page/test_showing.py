@@ -45,7 +45,8 @@ def test_something_red_before_the_camera_is_followed(person):
     verdict = person.until(lambda state: state["verdict"])["verdict"]
     assert verdict["motion"] == FILMED
     assert {said.get("source") for said in person.sent if said.get("phase") == "down"} == {"webcam"}
-    assert "webcam" in person.page.get_by_test_id("notebook").inner_html()
+    # The notebook is told anew right after the verdict.
+    person.page.get_by_test_id("notebook").get_by_text("webcam").first.wait_for()
 
 
 def test_the_keyboard_is_enough(person):

@@ -41,8 +41,10 @@ def test_a_second_page_is_told_and_may_take_over(open_page, taught):
 
 
 def test_a_killed_worker_comes_back_with_the_session(person, taught):
+    before = person.state()["notebook"]
     person.shows("LR ↑")
-    shown, robot = person.state()["notebook"], taught.worker()
+    shown = person.until(lambda state: state["notebook"] > before)["notebook"]
+    robot = taught.worker()
     robot.kill()
     person.until(lambda state: not state["ready"], patience=5)
     assert "starting again" in person.guide()
