@@ -11,9 +11,9 @@ from motionese.caregiver import (
     Demonstrating,
     RecordedCaregiver,
     ScriptedCaregiver,
-    minimum_jerk,
 )
 from motionese.errors import TaskError
+from motionese.minimum_jerk import minimum_jerk
 
 MANNER = Demonstrating(stroke_steps=12, rest_steps=2, variability_mm=3.0, persistence=0.9)
 PAIR = PUSHING_BUTTONS.motion("UR ↓↑")

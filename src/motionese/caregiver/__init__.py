@@ -6,7 +6,6 @@ from motionese.caregiver.demonstration import (
     Demonstrating,
     RecordedCaregiver,
     ScriptedCaregiver,
-    minimum_jerk,
 )
 from motionese.caregiver.task import BUTTONS, PUSHING_BUTTONS, Motion, Primitive, Task
 
@@ -21,5 +20,4 @@ __all__ = [
     "RecordedCaregiver",
     "ScriptedCaregiver",
     "Task",
-    "minimum_jerk",
 ]

@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from motionese.body import CORNERS, arm_reaching, projected
 from motionese.caregiver.task import Motion
 from motionese.errors import TaskError, unknown
+from motionese.minimum_jerk import minimum_jerk
 
 
 class Demonstrating(BaseModel):
@@ -119,8 +120,3 @@ class RecordedCaregiver:
         if not paths:
             raise TaskError(unknown("recorded motion", motion.name, self.recordings))
         return np.asarray(paths[int(rng.integers(len(paths)))])
-
-
-def minimum_jerk(phase: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
-    """Return the share of a stroke done at a share of its duration (Flash & Hogan 1985)."""
-    return np.asarray(phase**3 * (10 - 15 * phase + 6 * phase**2))

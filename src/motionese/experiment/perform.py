@@ -9,8 +9,8 @@ from jaxtyping import Array, Float
 from numpy import ndarray
 
 from motionese.body import COMMAND_RANGE, Actroid
-from motionese.caregiver import minimum_jerk
 from motionese.experiment.settings import Imitation
+from motionese.minimum_jerk import minimum_jerk
 from motionese.network import MTRNN, rollout
 
 ARM = slice(0, 2)

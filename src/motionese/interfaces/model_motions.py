@@ -10,10 +10,8 @@ import numpy as np
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError, unknown
 from motionese.learning import Fit, Motions
+from motionese.learning.recognise import SAME_RATE
 from motionese.recordings import choose, chosen, prepare, read
-
-SAME_RATE = 1e-3
-"""Share by which rates may differ and count as the same."""
 
 
 def read_for(

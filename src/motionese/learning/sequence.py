@@ -9,12 +9,8 @@ from numpy import ndarray
 from motionese.errors import ChannelError, SettingError
 from motionese.learning.generate import generate
 from motionese.learning.placed import placed
+from motionese.minimum_jerk import minimum_jerk, transition_rows
 from motionese.network import MTRNN
-
-PEAK = 1.875
-"""The largest slope of the blend's weight 10 s³ − 15 s⁴ + 6 s⁵."""
-SHORTEST = 10
-"""Rows of the shortest transition: a motion that begins elsewhere needs some to find its way."""
 
 
 def generate_sequence(
@@ -73,11 +69,11 @@ def generate_sequence(
         over = blend
         if over is None:
             own = generate(network, state, rows + longest, duration=duration)[:rows]
-            needed = _rows_to_blend(former, own, passing[0])
-            over, former = int(min(max(needed, SHORTEST), rows // 2)), own
+            apart = np.abs(own[0] - passing[0])
+            over, former = transition_rows(apart, _speed(former, own), rows // 2), own
         left = dict(zip(names, passing[0], strict=True))
         path = generate(network, placed(network, state, left), rows + longest, duration=duration)
-        weight = _minimum_jerk(over)[:, None]
+        weight = _weight(over)
         path[:over] = (1 - weight) * passing[:over] + weight * path[:over]
         whole = np.concatenate([before, path])
     return whole[:-longest]
@@ -98,28 +94,17 @@ def _set_out(
     if network.channels is not None:
         standing[network.channels.indices(here)] = list(here.values())
     if over is None:
-        needed = _rows_to_blend(own[:rows], own[:rows], standing)
-        over = int(min(max(needed, SHORTEST), rows // 2))
-    weight = _minimum_jerk(over)[:, None]
+        over = transition_rows(np.abs(own[0] - standing), _speed(own[:rows]), rows // 2)
+    weight = _weight(over)
     path[:over] = (1 - weight) * standing + weight * path[:over]
     return path
 
 
-def _rows_to_blend(
-    before: Float[ndarray, "S D"], after: Float[ndarray, "T D"], here: Float[ndarray, " D"]
-) -> float:
-    """Return the rows in which a transition is no faster than the motions it connects.
-
-    Infinitely many where a channel stands still in both, at different places.
-    """
-    speed = np.maximum(*(np.abs(np.diff(path, axis=0)).max(0) for path in (before, after)))
-    apart = np.abs(after[0] - here)
-    still = np.where(apart > 0, np.inf, 0.0)
-    rows = np.divide(apart, speed, out=still, where=speed > 0)
-    return float(np.ceil(PEAK * rows.max()))
+def _speed(*paths: Float[ndarray, "_ D"]) -> Float[ndarray, " D"]:
+    """Return every channel's largest change from one row of some path to the next."""
+    return np.asarray(np.max([np.abs(np.diff(path, axis=0)).max(0) for path in paths], axis=0))
 
 
-def _minimum_jerk(rows: int) -> Float[ndarray, " B"]:
-    """Return the weight of what follows in every row of a blend, from 0 towards 1."""
-    s = np.arange(rows) / max(rows, 1)
-    return np.asarray(10 * s**3 - 15 * s**4 + 6 * s**5)
+def _weight(rows: int) -> Float[ndarray, "B 1"]:
+    """Return the weight of what follows in every row of a transition, from 0 towards 1."""
+    return minimum_jerk(np.arange(rows) / max(rows, 1))[:, None]

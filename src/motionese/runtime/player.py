@@ -6,6 +6,7 @@ import numpy as np
 from numpy import ndarray
 
 from motionese.errors import ControlError
+from motionese.minimum_jerk import minimum_jerk
 from motionese.runtime.model import RuntimeModel
 from motionese.runtime.readings import Reading, row_of
 from motionese.runtime.state import State
@@ -102,8 +103,3 @@ def shares(model: RuntimeModel, share: Share) -> ndarray:
     if not ((spread >= 0) & (spread <= 1)).all():
         raise ControlError(f"the share of what is sensed must be 0 to 1, got {share}")
     return spread
-
-
-def minimum_jerk(s: float) -> float:
-    """Return how far a movement of minimum jerk has come at the share s of its time."""
-    return s**3 * (10 - 15 * s + 6 * s**2)

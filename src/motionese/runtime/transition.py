@@ -1,18 +1,13 @@
 """How many rows it takes to pass from one motion to another, about as fast as they are."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy import ndarray
 
+from motionese.minimum_jerk import transition_rows
 from motionese.runtime.model import RuntimeModel
 from motionese.runtime.player import Player
-
-PEAK = 1.875
-"""The largest slope of the blend's weight 10 s³ − 15 s⁴ + 6 s⁵."""
-SHORTEST = 10
-"""Rows of the shortest transition: a motion that begins elsewhere needs some to find its way."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +51,4 @@ class Transition:
         """
         speed = np.maximum(self.former.speed, self.latter.speed)
         apart = np.abs(self.latter.first - here)
-        still = np.where(apart > 0, np.inf, 0.0)
-        needed = PEAK * float(np.divide(apart, speed, out=still, where=speed > 0).max())
-        most = self.latter.rows // 2
-        return min(max(math.ceil(needed), SHORTEST), most) if needed < most else most
+        return transition_rows(apart, speed, self.latter.rows // 2)
