@@ -1,23 +1,18 @@
-"""The caregiver: the task, what is taught in which phase, and how a motion is shown."""
+"""The caregiver: how sequences of primitives are shown."""
 
-from motionese.caregiver.curriculum import Curriculum
 from motionese.caregiver.demonstration import (
     Caregiver,
-    Demonstrating,
+    Demonstration,
     RecordedCaregiver,
-    ScriptedCaregiver,
+    rows_of_places,
 )
-from motionese.caregiver.task import BUTTONS, PUSHING_BUTTONS, Motion, Primitive, Task
+from motionese.caregiver.scripted import Manner, ScriptedCaregiver
 
 __all__ = [
-    "BUTTONS",
-    "PUSHING_BUTTONS",
     "Caregiver",
-    "Curriculum",
-    "Demonstrating",
-    "Motion",
-    "Primitive",
+    "Demonstration",
+    "Manner",
     "RecordedCaregiver",
     "ScriptedCaregiver",
-    "Task",
+    "rows_of_places",
 ]
