@@ -110,12 +110,13 @@ def go_through(
     run.folder.mkdir(parents=True, exist_ok=True)
     scene = Scene(settings, run.seed, recordings)
     stages = settings.development(run.condition)
-    loops = read_checkpoints(run.folder, run.origin(settings))
+    origin = run.origin(settings)
+    loops = read_checkpoints(run.folder, origin)
     while not (loops and loops[-1].failure):
         stage = next_stage(stages, [_loop_done(checkpoint) for checkpoint in loops])
         if stage is None:
             break
-        loops.append(_loop(run, scene, stages, stage, loops[-1] if loops else None))
+        loops.append(_loop(origin, scene, stages, stage, loops[-1] if loops else None))
         write_checkpoint(run.folder, loops[-1], scene.body.rate_hz)
         loop_done(loops[-1].loop)
     return _finish(run, scene, stages, loops)
@@ -127,7 +128,7 @@ def _loop_done(checkpoint: Checkpoint) -> LoopDone:
 
 
 def _loop(
-    run: Run, scene: Scene, stages: tuple[Stage, ...], number: int, before: Checkpoint | None
+    origin: str, scene: Scene, stages: tuple[Stage, ...], number: int, before: Checkpoint | None
 ) -> Checkpoint:
     """Go through the next loop, which belongs to a stage (from 0)."""
     began = time.perf_counter()
@@ -137,7 +138,7 @@ def _loop(
     while len(learner.network.levels) < stage.levels:
         # The network's own key: a level that opens late gets the weights, times the influence,
         # that the same seed gives it in a network that has it from the start.
-        learner = learner.grown(scene.settings.network, key_for(run.seed, "network"))
+        learner = learner.grown(scene.settings.network, key_for(scene.seed, "network"))
     opened = {f"{k}_at_opening": v for k, v in network_row(learner).items() if k.startswith("rms")}
     known = {k: v for k, v in before.development.items() if k in opened} if before else {}
     acting = scene.settings.imitation
@@ -150,9 +151,8 @@ def _loop(
         acting.memory * max(len(each.lesson) for each in stages),
         earlier if acting.rehearsal else (),
     )
-    assert isinstance(scene.settings, Study)
     return Checkpoint(
-        origin=run.origin(scene.settings),
+        origin=origin,
         loop=loop,
         learner=learner,
         rows=[{"loop": loop, "phase": number + 1, **row} for row in rows],
