@@ -3,9 +3,11 @@
 import numpy as np
 import onnxruntime
 import pytest
+from small_models import nothing_learned
 from typed import CHANNELS, NAMES, arm_motions, refused, typed
 
-from motionese import Motions
+from motionese import Motions, load
+from motionese.learning import write_fit
 
 WHERE = {
     "csv": "new.csv",
@@ -43,6 +45,21 @@ def test_a_step_is_exported_and_agrees(arm):
     assert "arm.onnx: one step (x, u → y, u_next); differs from the network by at most" in output
     session = onnxruntime.InferenceSession("arm.onnx", providers=["CPUExecutionProvider"])
     assert [i.shape for i in session.get_inputs()] == [[len(CHANNELS)], [17]]
+
+
+def test_a_model_that_has_learned_nothing_yet_does_what_needs_no_motion(arm):
+    facts = {"loop": 0, "names": ["of", "others"]}
+    write_fit("new.safetensors", nothing_learned(load("arm.safetensors")), {"u": np.ones(2)}, facts)
+
+    assert typed("export", "new.safetensors", "--onnx", "new.onnx")[::2] == (0, "")
+    status, output, _ = typed("recognise", "new.safetensors", "demos.csv", "--initial", "in.json")
+    assert (status, "nearest learned" in output) == (0, True)
+    assert typed("generate", "new.safetensors", "--initial", "in.json", "--out", "a.csv")[0] == 0
+    for like in ([], ["--like", "lift"]):
+        told = refused("generate", "new.safetensors", *like, "--out", "b.csv")
+        assert told == (
+            "new.safetensors: the model has learned no motion yet; train it on motions first"
+        )
 
 
 WRONG = {

@@ -7,7 +7,7 @@ import numpy as np
 from rich.console import Console
 
 from motionese.channels import Channels
-from motionese.errors import SettingError, unknown
+from motionese.errors import NO_MOTION, SettingError, unknown
 from motionese.interfaces.expressed import reach
 from motionese.interfaces.initial_states import read_initial_states
 from motionese.interfaces.motion_figure import write_figure
@@ -50,6 +50,8 @@ def generate_motion(
         if initial is None
         else read_initial_states(initial, fit.network)
     )
+    if not known:
+        raise SettingError(f"{model}: {NO_MOTION}")
     if not like and initial is None:
         raise SettingError(
             f"say what to generate: --like EPISODE, one of {', '.join(known)}; or --initial FILE"

@@ -103,6 +103,8 @@ def _table(fit: Fit, motions: Motions, found: Sequence[Found], seen: Sequence[st
 
 def _nearest(fit: Fit, found: Found) -> str:
     """Return the learned motion whose initial states of the context are nearest."""
+    if not fit.names:
+        return "–"
     io = fit.network.io_size
     distances = np.linalg.norm(fit.initial_states[:, io:] - found.initial_state[io:], axis=1)
     return fit.names[int(distances.argmin())]
