@@ -8,7 +8,7 @@ from typer.cli import get_docs_for_click
 from typer.main import get_command
 
 import motionese
-from motionese.interfaces.command_line import app as command_line
+from motionese.interfaces.commands.command_line import app as command_line
 
 project = "motionese"
 author = copyright = "The motionese authors"
