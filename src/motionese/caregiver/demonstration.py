@@ -25,7 +25,9 @@ class Demonstration:
     begins: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        rising = all(a < b for a, b in zip(self.begins, (*self.begins[1:], len(self.path)), strict=True))
+        rising = all(
+            a < b for a, b in zip(self.begins, (*self.begins[1:], len(self.path)), strict=True)
+        )
         if not self.begins or self.begins[0] != 0 or not rising:
             raise TaskError(
                 f"the primitives of a demonstration of {len(self.path)} rows must begin at rising "
@@ -66,9 +68,7 @@ class RecordedCaregiver:
         return recorded[int(rng.integers(len(recorded)))]
 
 
-def rows_of_places(
-    path: Float[ndarray, "T 3"], places: Float[ndarray, "K 3"]
-) -> tuple[int, ...]:
+def rows_of_places(path: Float[ndarray, "T 3"], places: Float[ndarray, "K 3"]) -> tuple[int, ...]:
     """Return the rows at which a path comes by places in turn, the first of them at row 0.
 
     The rows rise, and the sum of the distances [m] there is the least possible (by dynamic

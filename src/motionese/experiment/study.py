@@ -28,7 +28,7 @@ class StageSettings(Group):
 
     lesson: Lesson | dict[str, Lesson]
     levels: Levels | dict[str, Levels]
-    caregiver: dict[str, Any] = {}
+    caregiver: dict[str, Any] = Field(default_factory=dict)
     until: Until
 
 

@@ -222,9 +222,7 @@ def babbled(scene: Scene, learner: Learner) -> Learner:
         learner = learner.experiencing(0, BABBLING, values, start)
     if not learner.experiences:
         return learner
-    quiet = settings.training.model_copy(
-        update={"noise": {}, "epochs": settings.babbling.epochs}
-    )
+    quiet = settings.training.model_copy(update={"noise": {}, "epochs": settings.babbling.epochs})
     return learner.trained(quiet, scene.body.rate_hz)[0]
 
 

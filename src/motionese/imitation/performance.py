@@ -69,9 +69,7 @@ class Performance:
         return np.asarray(1 / (1 + np.exp(-self.potentials)))
 
 
-def watch(
-    body: SimulatedRobot, demonstration: Demonstration, rng: np.random.Generator
-) -> Watched:
+def watch(body: SimulatedRobot, demonstration: Demonstration, rng: np.random.Generator) -> Watched:
     """Let the caregiver's hand run along its path before the robot's eye."""
     path = demonstration.path
     body.watch(path[0], rng)

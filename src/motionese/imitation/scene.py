@@ -37,9 +37,7 @@ class Scene:
         postures: Commanded joint angles [rad] that hold the hand in a place.
     """
 
-    def __init__(
-        self, settings: Settings, seed: int, recordings: Recordings | None = None
-    ) -> None:
+    def __init__(self, settings: Settings, seed: int, recordings: Recordings | None = None) -> None:
         """Build the scene; `TaskError` if the robot cannot reach a place of the task.
 
         Args:

@@ -149,11 +149,11 @@ def checked(model: type[M], table: Table) -> M:
 
 
 def setting_names(model: type[BaseModel], path: list[str]) -> list[str]:
-    """Return the full names of the settings in a group; the group itself where it is open."""
+    """Return the full names of the settings in a group; none where its names are not fixed."""
     groups = [model]
     for part in path:
         fields = [g.model_fields[part].annotation for g in groups if part in g.model_fields]
-        groups = [g for annotation in fields for g in _groups_in(annotation)] or groups
+        groups = [g for annotation in fields for g in _groups_in(annotation)]
     names = dict.fromkeys(name for group in groups for name in group.model_fields)
     return [".".join([*path, name]) for name in names]
 

@@ -3,10 +3,11 @@
 from motionese.errors import TaskError, unknown
 from motionese.task.pushing_buttons import PUSHING_BUTTONS
 from motionese.task.sequence import Place, Primitive, PrimitiveSequence, common_beginning
+from motionese.task.shapes import SHAPES
 from motionese.task.task import Attempt, Outcome, Task
 from motionese.task.way import Arc, ViaPoints, Way, straight
 
-TASKS = {task.name: task for task in (PUSHING_BUTTONS,)}
+TASKS = {task.name: task for task in (PUSHING_BUTTONS, SHAPES)}
 """Every task by its name in settings; a new one is a row here."""
 
 

@@ -60,11 +60,11 @@ def study_of(table: Table) -> Study:
     Raises:
         SettingError: One that is wrong, or of the form before stages.
     """
-    for old, now in OLD_FORM.items():
+    for old in OLD_FORM:
         group, _, name = old.rpartition(".")
         within = table.get(group) if group else table
         if isinstance(within, Mapping) and name in within:
-            raise SettingError(f"setting {old} is of the form before; it is now {now}")
+            raise SettingError(_moved(old))
     return checked(Study, table)
 
 
@@ -108,7 +108,10 @@ def _over(table: Table, above: Table) -> Table:
         if isinstance(within, Mapping) and last in within:
             table = _laid_over(table, {group: {last: None}} if group else {last: None})
     body = above.get("body")
-    if isinstance(body, Mapping) and body.get("name", table["body"]["name"]) != table["body"]["name"]:
+    if (
+        isinstance(body, Mapping)
+        and body.get("name", table["body"]["name"]) != table["body"]["name"]
+    ):
         table = {**table, "body": {}}  # another robot has settings of its own
     return _laid_over(table, above)
 
@@ -147,27 +150,29 @@ def _check_name(path: list[str], table: Table) -> None:
         group = path[:depth]
         if ".".join(group) in OPEN_GROUPS:
             return
-        if isinstance(here, list):
-            here = dict(enumerate(here)) if part.isdecimal() else {}
-            known = [".".join([*group, str(number)]) for number in here]
-            part = int(part) if part.isdecimal() else part
-        else:
-            known = setting_names(Study, [p for p in group if not p.isdecimal()])
-            known = [k.rpartition(".")[2] for k in known]
-            known = list(dict.fromkeys([*(here if isinstance(here, Mapping) else ()), *known]))
-            if isinstance(here, Mapping) and part in known and part not in here:
-                here = {part: None}
-            known = [".".join([*group, k]) for k in known]
-        if not isinstance(here, Mapping) or part not in here:
+        known = _names_in(here, group)
+        if part not in known:
             asked = ".".join(path[: depth + 1])
             if asked in OLD_FORM:
-                raise SettingError(
-                    f"setting {asked} is of the form before; it is now {OLD_FORM[asked]}"
-                )
-            raise SettingError(unknown("setting", asked, known))
-        here = here[part]
-    if isinstance(here, Mapping) and ".".join(path) not in (*OPEN_GROUPS, "stages"):
+                raise SettingError(_moved(asked))
+            raise SettingError(unknown("setting", asked, (".".join([*group, k]) for k in known)))
+        here = here[int(part)] if isinstance(here, list) else here.get(part)
+    if isinstance(here, Mapping) and ".".join(path) not in OPEN_GROUPS:
         raise SettingError(f"'{'.'.join(path)}' is a group of settings: {', '.join(here)}")
+
+
+def _names_in(here: Any, group: list[str]) -> list[str]:
+    """Return what a group of a table holds, and what it may hold beside."""
+    if isinstance(here, list):
+        return [str(number) for number in range(len(here))]
+    if not isinstance(here, Mapping):
+        return []
+    possible = setting_names(Study, [part for part in group if not part.isdecimal()])
+    return list(dict.fromkeys([*here, *(name.rpartition(".")[2] for name in possible)]))
+
+
+def _moved(old: str) -> str:
+    return f"setting {old} is of the form before; it is now {OLD_FORM[old]}"
 
 
 def _laid_over(below: Mapping[str, Any], above: Mapping[str, Any]) -> Table:

@@ -4,24 +4,30 @@ import re
 from collections.abc import Iterable, Sequence
 
 from motionese.errors import SettingError
-from motionese.experiment.conditions import CONDITIONS, Condition, condition
+from motionese.experiment import Condition, Study, condition_named
 
 LARGEST_SEED = 2**32 - 1
 """Larger seeds would be cut to 32 bits, and mean the same as smaller ones."""
 MOST_SEEDS = 10_000
 
 
-def read_conditions(texts: Iterable[str]) -> list[Condition]:
-    """Return the named conditions in the paper's order, all of them if none is named.
+def read_conditions(texts: Iterable[str], study: Study) -> list[Condition]:
+    """Return the named conditions in the study's order, all of them if none is named.
 
     Args:
         texts: Names such as "TD/MD"; several in one text are separated by commas.
+        study: The settings, whose factors make the conditions.
 
     Raises:
         SettingError: A condition that does not exist.
     """
-    named = [condition(name.strip()) for text in texts for name in text.split(",") if name.strip()]
-    return [c for c in CONDITIONS if not named or c in named]
+    named = [
+        condition_named(name.strip(), study.factors)
+        for text in texts
+        for name in text.split(",")
+        if name.strip()
+    ]
+    return [c for c in study.conditions if not named or c in named]
 
 
 def read_seeds(text: str) -> list[int]:

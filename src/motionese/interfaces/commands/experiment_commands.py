@@ -22,13 +22,15 @@ def add_to(app: typer.Typer) -> None:
 def reproduce(
     conditions: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME …", help="Of TD/MD, TD/MND, TND/MD, TND/MND; default: all."),
+        typer.Option(
+            metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all."
+        ),
     ] = None,
     seeds: Annotated[
         str, typer.Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
     ] = "3",
     preset: Annotated[
-        str, typer.Option(metavar="default|paper|FILE", help="Settings; see `motionese presets`.")
+        str, typer.Option(metavar="NAME|FILE", help="Settings; see `motionese presets`.")
     ] = "default",
     overrides: Annotated[
         list[str] | None,
@@ -94,7 +96,7 @@ def presets(
 ) -> None:
     """List the presets, or print one to copy and edit."""
     with plainly("stopped"):
-        from motionese.experiment.reading import PRESETS, preset_text
+        from motionese.experiment.presets import PRESETS, preset_text
 
         if name is None:
             for each in PRESETS:

@@ -6,18 +6,15 @@ from pathlib import Path
 from dask.system import CPU_COUNT
 from rich.console import Console
 
+from motionese.caregiver import Recorded, read_recorded
 from motionese.errors import SettingError
-from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment import Run, Study, read_settings
 from motionese.experiment.many_runs import UnfinishedRunsError, go_through_all
-from motionese.experiment.reading import read_settings
-from motionese.experiment.run import Run, newborn
 from motionese.experiment.run_folder import REPORT, open_run_folder
-from motionese.experiment.scene import Scene
-from motionese.experiment.settings import Settings
+from motionese.imitation import Scene, newborn
 from motionese.interfaces.commands.choices import as_ranges, read_conditions, read_seeds
 from motionese.interfaces.commands.display import Display
 from motionese.interfaces.commands.results import write_results
-from motionese.teaching.demonstrations import Recorded, recorded
 
 SCRIPTED = "scripted"
 
@@ -46,9 +43,10 @@ def reproduce(
         UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
     """
     settings = read_settings(preset, overrides, quick=quick)
-    newborn(CONDITIONS[-1], Scene(settings, seed=0))
-    chosen, numbers = read_conditions(conditions), read_seeds(seeds)
-    shown = _shown(caregiver, settings)
+    scene = Scene(settings, seed=0)
+    newborn(scene, len(settings.network.levels))
+    chosen, numbers = read_conditions(conditions, settings), read_seeds(seeds)
+    shown = _recorded(caregiver, scene)
     path = out or Path("runs") / (Path(preset).stem + ("-quick" if quick else ""))
     with open_run_folder(path, settings, preset, shown.digest if shown else "") as folder:
         runs = [folder.run(condition, seed) for seed in numbers for condition in chosen]
@@ -57,7 +55,7 @@ def reproduce(
         console.print(f"{len(runs)} runs: {names}, each with seeds {as_ranges(numbers)}")
         if shown:
             console.print(
-                f"Recorded demonstrations of {', '.join(shown.motions)}; the rest scripted"
+                f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted"
             )
         for change in folder.changed:
             console.print(
@@ -73,25 +71,25 @@ def reproduce(
     return too_few
 
 
-def _shown(caregiver: str, settings: Settings) -> Recorded | None:
+def _recorded(caregiver: str, scene: Scene) -> Recorded | None:
     """Return the demonstrations of 'recordings:PATH', or None for 'scripted'."""
     kind, _, path = caregiver.partition(":")
     if caregiver == SCRIPTED:
         return None
     if kind != "recordings" or not path:
         raise SettingError(f"--caregiver is {SCRIPTED} or recordings:FOLDER, got '{caregiver}'")
-    return recorded(Path(path), settings.caregiver, settings.body.rate_hz)
+    return read_recorded(Path(path), scene.task, scene.settings.caregiver, scene.body)
 
 
 def _go_through(
     runs: Sequence[Run],
-    settings: Settings,
+    settings: Study,
     workers: int,
     shown: Recorded | None,
     console: Console,
 ) -> list[str]:
     left = [run for run in runs if not run.ended()]
-    loops = settings.phases.loops
+    loops = settings.most_loops()
     begun = sum(run.loops_done() > 0 for run in left)
     if len(left) < len(runs) or begun:
         console.print(f"{len(runs) - len(left)} of them are done, {begun} go on from a checkpoint")
@@ -106,7 +104,7 @@ def _go_through(
             left,
             settings,
             workers,
-            caregiver=shown.caregiver if shown else None,
+            recordings=shown.recordings if shown else None,
             loop_done=display.loop_done,
             run_ended=display.run_ended,
         )

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from motionese.experiment.conditions import CONDITIONS
+from motionese.experiment import Study
+from motionese.experiment.presets import study_of
 from motionese.experiment.run_folder import run_settings
+from motionese.task import Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,50 +25,59 @@ def write_results(folder: Path, console: Console) -> str:
     Raises:
         RunFolderError: No run folder, or none of its runs has ended.
     """
-    settings = run_settings(folder)
+    study = study_of(run_settings(folder))
     # A second of imports that nobody who is told of a mistake should wait for.
     from motionese.analysis import write_report
 
     with console.status("Writing the report …"):
         written = write_report(folder)
-    console.print(summary(written.path.parent, settings["phases"]["change_after"]))
+    console.print(summary(written.path.parent, study))
     console.print(f"Report: {written.path}")
     return str(written.too_few)
 
 
-def summary(folder: Path, change_after: int) -> Table:
-    """Return imitation errors [cm], median over seeds, and how many due buttons were pressed.
+def summary(folder: Path, study: Study) -> Table:
+    """Return imitation errors [cm], median over seeds, and what was achieved in the last loop.
 
     Args:
-        folder: Where `loops.csv` and `triples.csv` are.
-        change_after: The last loop of phase 1.
+        folder: Where `loops.csv` and the tables of new sequences are.
+        study: The settings of its runs.
     """
     import pandas as pd
 
+    task = study.task.task()
     loops = pd.read_csv(folder / "loops.csv")
-    novel = folder / "triples.csv"
-    triples = pd.read_csv(novel) if novel.is_file() else pd.DataFrame()
-    last = int(loops["loop"].max())
-    shown = sorted({1, min(max(change_after, 1), last), last})
-    columns = (*(f"loop {n}" for n in shown), "untrained triples", f"buttons, loop {last}")
-    table = Table("condition", "seeds", *columns)
-    table.title = "Imitation error [cm], mean over motions, median over seeds"
+    novel = {name: folder / f"{name}.csv" for name in task.novel}
+    tables = {name: pd.read_csv(path) for name, path in novel.items() if path.is_file()}
+    stages = range(1, len(study.stages) + 1)
+    columns = ("loop 1", *(f"stage {n}" for n in stages), *(f"new {name}" for name in tables))
+    outcome = task.outcomes[0]
+    table = Table("condition", "seeds", *columns, f"{outcome.title}, last loop")
+    table.title = (
+        "Imitation error [cm] in loop 1, in the last loop of every stage, and of new sequences; "
+        "mean over motions, median over seeds"
+    )
     for column in table.columns[1:]:
         column.justify = "right"
-    for name in (c.name for c in CONDITIONS):
-        own = loops[loops["condition"] == name]
+    for condition in study.conditions:
+        own = loops[loops["condition"] == condition.name]
         if own.empty:
             continue
-        errors = [_centimetres(own[own["loop"] == n]) for n in shown]
-        at_last = own[own["loop"] == last]
+        errors = [_centimetres(own[own["loop"] == 1])]
+        errors += [_centimetres(_last_loop(own[own["phase"] == n])) for n in stages]
+        errors += [_centimetres(t[t["condition"] == condition.name]) for t in tables.values()]
         table.add_row(
-            name,
+            condition.name,
             str(own["seed"].nunique()),
             *errors,
-            _untrained(triples, name),
-            _of(int(at_last["buttons_pressed"].sum()), int(at_last["buttons_due"].sum())),
+            _achieved(_last_loop(own), outcome),
         )
     return table
+
+
+def _last_loop(rows: "pd.DataFrame") -> "pd.DataFrame":
+    """Return the rows of every seed's last loop."""
+    return rows[rows["loop"] == rows.groupby("seed")["loop"].transform("max")]
 
 
 def _centimetres(rows: "pd.DataFrame") -> str:
@@ -76,11 +87,8 @@ def _centimetres(rows: "pd.DataFrame") -> str:
     return f"{rows.groupby('seed')['imitation_error_cm'].mean().median():.1f}"
 
 
-def _untrained(triples: "pd.DataFrame", name: str) -> str:
-    if triples.empty:
-        return "–"
-    return _centimetres(triples[(triples["condition"] == name) & ~triples["trained"]])
-
-
-def _of(pressed: int, due: int) -> str:
-    return f"{pressed} of {due}" if due else "–"
+def _achieved(rows: "pd.DataFrame", outcome: Outcome) -> str:
+    if not outcome.of:
+        return f"{rows[outcome.column].median():.1f} {outcome.unit}"
+    done, due = int(rows[outcome.column].sum()), int(rows[outcome.of].sum())
+    return f"{done} of {due}" if due else "–"
