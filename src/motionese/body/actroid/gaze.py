@@ -1,20 +1,14 @@
 """The eye: where it is, how it follows a hand, and in which direction the hand it sees lies."""
 
-import math
-from typing import Literal
-
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-Hand = Literal["own", "caregiver"]
-"""Whose hand the eye follows, by its red marker."""
+from motionese.body.eye import focal_px
 
 EYE_POSITION: Float[ndarray, "3"] = np.array([0.02, 0.0, 1.33])
 """The eye [m, world]; pan and tilt axes meet in it, so that it stays there while the head turns."""
-IMAGE_SIZE = (128, 96)
-"""Width and height of the eye's picture [px]."""
-FOCAL_PX = IMAGE_SIZE[1] / 2 / math.tan(math.radians(50.0) / 2)
+FOCAL_PX = focal_px(50.0)
 """Focal length [px] for the eye's vertical field of view of 50°."""
 SERVO_GAIN = 0.5
 """Share of the seen error that one correction of the gaze removes."""

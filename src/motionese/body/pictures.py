@@ -7,13 +7,13 @@ import numpy as np
 from jaxtyping import Float, UInt8
 from numpy import ndarray
 
+from motionese.body.composition import ROOM
 from motionese.body.eye import HEAD_GROUP
-from motionese.body.model import load_model
 from motionese.body.rendering import open_renderer
-from motionese.body.settings import BodySettings
 
 
 def pictures(
+    model: mujoco.MjModel,
     poses: Float[ndarray, "N P"],
     *,
     camera: Literal["outside", "eye"] = "outside",
@@ -22,23 +22,24 @@ def pictures(
     """Draw kept poses as pictures in red, green and blue.
 
     Args:
-        poses: What `Actroid.pose` returned at the wanted moments.
-        camera: "outside", beside the table, or "eye", what the robot sees.
+        model: The model of the robot whose poses they are, see `load_model`.
+        poses: What the robot's `pose` returned at the wanted moments.
+        camera: "outside", beside the table, or "eye", from where the robot sees.
         size: Width and height [px], at most 640 × 480.
 
     Raises:
         RenderingError: No pictures can be rendered on this machine.
     """
-    model = load_model(BodySettings())
     data = mujoco.MjData(model)
     option = mujoco.MjvOption()
     option.geomgroup[HEAD_GROUP] = camera != "eye"
+    name = camera if camera == "eye" else ROOM + camera
     width, height = size
     drawn = np.empty((len(poses), height, width, 3), dtype=np.uint8)
     with open_renderer(model, width, height) as renderer:
         for picture, pose in zip(drawn, poses, strict=True):
             data.qpos[:], data.mocap_pos[0] = pose[: model.nq], pose[model.nq :]
             mujoco.mj_forward(model, data)
-            renderer.update_scene(data, camera=camera, scene_option=option)
+            renderer.update_scene(data, camera=name, scene_option=option)
             renderer.render(out=picture)
     return drawn
