@@ -1,18 +1,38 @@
 """The caregiver: how sequences of primitives are shown."""
 
-from motionese.caregiver.demonstration import (
-    Caregiver,
-    Demonstration,
+from motionese.caregiver.demonstration import Caregiver, Demonstration
+from motionese.caregiver.recorded import (
+    DEMONSTRATIONS,
+    Recorded,
     RecordedCaregiver,
-    rows_of_places,
+    read_recorded,
+    recording_of,
 )
 from motionese.caregiver.scripted import Manner, ScriptedCaregiver
+from motionese.caregiver.segmentation import (
+    evenly_along,
+    intended_way,
+    rows_of_places,
+    sequence_in,
+    stroke_length,
+)
+from motionese.caregiver.tempo import lasting, moving
 
 __all__ = [
+    "DEMONSTRATIONS",
     "Caregiver",
     "Demonstration",
     "Manner",
+    "Recorded",
     "RecordedCaregiver",
     "ScriptedCaregiver",
+    "evenly_along",
+    "intended_way",
+    "lasting",
+    "moving",
+    "read_recorded",
+    "recording_of",
     "rows_of_places",
+    "sequence_in",
+    "stroke_length",
 ]
