@@ -17,6 +17,8 @@ CHANNELS = Channels(
     ]
 )
 SIZES = (3, 7, 2)
+INITIAL_IO = ("sensed", "zero")
+"""What the IO units of a network may begin at."""
 NAMES = ("reach", "wave")
 
 
