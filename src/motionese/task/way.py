@@ -1,13 +1,14 @@
 """Ways: how a hand gets from one place to another, as functions of the share of the way done."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
 
+@runtime_checkable
 class Way(Protocol):
     """A way from place to place; hashable, so that primitives are."""
 
