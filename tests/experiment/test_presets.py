@@ -15,7 +15,7 @@ def test_the_default_preset_gives_every_setting():
     table = tomllib.loads(preset_text("default"))
     dumped = read_settings().model_dump(mode="json")
     given = {path for path, _ in flat(table)}
-    optional = {"task.places"} | {
+    optional = {"task.places", "network.levels.io.size"} | {
         path
         for path, _ in flat(dumped)
         if path.startswith("evaluation.recognition.") or path.endswith((".caregiver", ".settled"))
