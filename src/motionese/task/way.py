@@ -71,4 +71,4 @@ class ViaPoints:
         offsets = np.array([(0.0, 0.0, 0.0), *self.points, (0.0, 0.0, 0.0)])
         at = np.linspace(0.0, 1.0, len(offsets))
         aside = np.stack([np.interp(share, at, column) for column in offsets.T], axis=-1)
-        return straight(share, start, end) + aside
+        return np.asarray(straight(share, start, end) + aside)
