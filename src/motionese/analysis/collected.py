@@ -79,8 +79,8 @@ class Collected:
     def new_sequences(self) -> pd.DataFrame:
         """The rows of all sets of new sequences."""
         filled = [table for table in self.novel.values() if len(table)]
-        empty = pd.DataFrame(columns=["condition", "seed", "motion", "trained", *MEASURED])
-        return pd.concat(filled, ignore_index=True) if filled else empty
+        none = self.loops.iloc[:0].assign(trained=False)
+        return pd.concat(filled, ignore_index=True) if filled else none
 
     @property
     def looks(self) -> dict[str, Look]:
