@@ -21,10 +21,8 @@ from motionese.errors import RunFolderError
 from motionese.experiment.run import ENDED, Run
 
 ENDINGS = ("finished", "diverged")
-WHOLE_NUMBERS = ("seed", "loop", "phase", "levels", "buttons_due", "buttons_pressed")
+WHOLE_NUMBERS = ("seed", "loop", "phase", "levels")
 WORDS = ("condition", "motion", "primitive", "status")
-KEPT = ("activity", "commanded", "sensed", "depths", "poses")
-"""What `inside.npz` holds beside the paths."""
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 
@@ -88,9 +86,6 @@ def read_inside(path: Path) -> dict[str, ndarray]:
     try:
         with zipfile.ZipFile(path) as archive:
             names = [name.removesuffix(".npy") for name in archive.namelist()]
-        missing = [name for name in KEPT if name not in names]
-        if missing:
-            raise ValueError(f"no {', '.join(missing)}")
         with np.load(path, allow_pickle=False) as kept:
             return {name: kept[name] for name in names}
     except (

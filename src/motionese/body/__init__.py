@@ -66,6 +66,7 @@ __all__ = [
     "Robot",
     "SimulatedRobot",
     "SimulationSettings",
+    "TabletopRobot",
     "load_model",
     "open_body",
     "pictures",

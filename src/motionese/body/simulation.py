@@ -1,7 +1,7 @@
 """Robot, things and caregiver's hand in MuJoCo, from one picture of the eye to the next."""
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import mujoco
 import numpy as np
@@ -12,6 +12,7 @@ from motionese.body.composition import MARKERS, TASK, Hand
 from motionese.body.settings import PICTURES_HZ
 
 
+@runtime_checkable
 class Drive(Protocol):
     """A robot's actuators: what they are given so that its joints go where they are told."""
 

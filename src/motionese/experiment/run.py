@@ -172,7 +172,7 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
     }
     if not last.failure:
         taught = [sequence for stage in stages for sequence in stage.lesson]
-        kept = {}
+        kept: dict[str, np.ndarray] = {}
         for name in scene.task.novel:
             novel = scene.task.lesson(name)
             tables[f"{name}.csv"], imitated = imitate_novel(scene, last.learner, novel, taught)

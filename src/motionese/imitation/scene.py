@@ -123,4 +123,4 @@ class Scene:
         if self.settings.imitation.efference_copy:
             return self.postures[place]
         self.body.reset(self.postures[place], generator_for(self.seed, "posture", place))
-        return self.body.sense()[self.joints]
+        return np.asarray(self.body.sense()[self.joints])

@@ -152,6 +152,8 @@ def setting_names(model: type[BaseModel], path: list[str]) -> list[str]:
     """Return the full names of the settings in a group; none where its names are not fixed."""
     groups = [model]
     for part in path:
+        if part.isdecimal():  # a place in a list, whose type its field has told
+            continue
         fields = [g.model_fields[part].annotation for g in groups if part in g.model_fields]
         groups = [g for annotation in fields for g in _groups_in(annotation)]
     names = dict.fromkeys(name for group in groups for name in group.model_fields)

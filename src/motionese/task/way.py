@@ -1,13 +1,14 @@
 """Ways: how a hand gets from one place to another, as functions of the share of the way done."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
 
+@runtime_checkable
 class Way(Protocol):
     """A way from place to place; hashable, so that primitives are."""
 
@@ -70,4 +71,4 @@ class ViaPoints:
         offsets = np.array([(0.0, 0.0, 0.0), *self.points, (0.0, 0.0, 0.0)])
         at = np.linspace(0.0, 1.0, len(offsets))
         aside = np.stack([np.interp(share, at, column) for column in offsets.T], axis=-1)
-        return straight(share, start, end) + aside
+        return np.asarray(straight(share, start, end) + aside)

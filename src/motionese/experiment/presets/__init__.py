@@ -167,7 +167,7 @@ def _names_in(here: Any, group: list[str]) -> list[str]:
         return [str(number) for number in range(len(here))]
     if not isinstance(here, Mapping):
         return []
-    possible = setting_names(Study, [part for part in group if not part.isdecimal()])
+    possible = setting_names(Study, group)
     return list(dict.fromkeys([*here, *(name.rpartition(".")[2] for name in possible)]))
 
 

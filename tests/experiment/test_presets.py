@@ -6,26 +6,31 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motionese.errors import MotioneseError, SettingError, TaskError
-from motionese.experiment.reading import PRESETS, differences, preset_text, read_settings
+from motionese.body.actroid import Actroid
+from motionese.errors import MotioneseError, SettingError
+from motionese.experiment.presets import PRESETS, differences, preset_text, read_settings
 
 
 def test_the_default_preset_gives_every_setting():
     table = tomllib.loads(preset_text("default"))
     dumped = read_settings().model_dump(mode="json")
     given = {path for path, _ in flat(table)}
-    optional = {"caregiver.corners"} | {
-        path for path, _ in flat(dumped) if path.startswith("evaluation.recognition.")
+    optional = {"task.places", "network.levels.io.size"} | {
+        path
+        for path, _ in flat(dumped)
+        if path.startswith("evaluation.recognition.") or path.endswith((".caregiver", ".settled"))
     }
     assert {path for path, _ in flat(dumped)} - given - optional == set()
 
 
 def flat(table, prefix=""):
-    for name, value in table.items():
-        if isinstance(value, dict) and value:
-            yield from flat(value, f"{prefix}{name}.")
-        else:
-            yield f"{prefix}{name}", value
+    if isinstance(table, list) and table and isinstance(table[0], dict):
+        table = {str(i): each for i, each in enumerate(table)}
+    if isinstance(table, dict) and (table or not prefix):
+        for name, value in table.items():
+            yield from flat(value, f"{prefix}.{name}" if prefix else name)
+    else:
+        yield prefix, table
 
 
 def test_the_paper_preset_is_the_paper_where_it_speaks():
@@ -37,7 +42,7 @@ def test_the_paper_preset_is_the_paper_where_it_speaks():
     assert not paper.imitation.efference_copy
     assert not any(paper.training.noise.values())
     assert paper.network.levels == default.network.levels
-    sizes = [(level.size, level.tau) for level in paper.network.drawn_levels()]
+    sizes = [(level.size, level.tau) for level in paper.network.drawn_levels(Actroid.channels)]
     assert sizes == [(6, 2.0), (40, 5.0), (2, 70.0)]
 
 
@@ -61,11 +66,11 @@ def test_evaluation_recognises_as_learning_does_but_for_what_it_says():
 
 def test_a_file_is_laid_over_the_default(tmp_path):
     path = tmp_path / "mine.toml"
-    path.write_text('[network]\ngain = 3.0\n\n[teaching.TND]\nphase_1 = ["UR ↓↑←"]\n')
+    path.write_text("[network]\ngain = 3.0\n\n[task.places]\nUR = [0.5, -0.3, 1.05]\n")
     settings = read_settings(str(path))
     assert (settings.network.gain, settings.network.influence) == (3.0, 0.25)
     assert list(settings.network.levels) == ["io", "cf", "cs"]
-    assert [m.name for m in settings.lessons("TND")[0]] == ["UR ↓↑←"]
+    assert settings.task.places == {"UR": (0.5, -0.3, 1.05)}
 
 
 @pytest.mark.parametrize(
@@ -106,15 +111,14 @@ def test_by_level_settings_can_be_set_one_by_one():
     [
         ("[training", SettingError, "not a TOML file"),
         ("[training]\nepoch = 3", SettingError, "did you mean 'training.epochs'?"),
-        ('[teaching.TD]\nphase_2 = ["UR ↓←"]', TaskError, "impossible sequence 'UR ↓←'"),
-        ("[teaching.TX]\nphase_1 = 'primitives'", SettingError, "teaching.TX"),
+        ("[task]\nname = 'shape'", SettingError, "did you mean 'shapes'?"),
+        ("[task.places]\nUX = [1.0, 2.0, 3.0]", SettingError, "unknown place 'UX'"),
+        ("[body]\nname = 'actroit'", SettingError, "body.name = 'actroit'"),
         ("[network]\nlevels = 3", SettingError, "network.levels = 3"),
         ("recognition = 5", SettingError, "setting recognition = 5"),
         ("evaluation = 5", SettingError, "setting evaluation = 5"),
         ("[evaluation]\nrecognition = 5", SettingError, "setting evaluation.recognition = 5"),
-        ("[teaching.TD]\nphase_1 = []", SettingError, "setting teaching.TD.phase_1 = []"),
         ("[training]\nbound = -1", SettingError, "setting training.bound = -1"),
-        ("[teaching.TX]\nphase_1 = 'a'", SettingError, "did you mean 'teaching.T"),
     ],
 )
 def test_wrong_files_are_told(tmp_path, text, error, told):
@@ -130,6 +134,7 @@ def test_a_file_s_levels_are_all_there_are(tmp_path):
     path.write_text(
         "[network.levels]\nio = { size = 6, tau = 2.0 }\ncf = { size = 30, tau = 4.0 }\n"
         "[training]\nbound = 5.0\n[recognition]\nbound = 100.0\n"
+        '[[stages]]\nlesson = "primitives"\nlevels = ["io", "cf"]\nuntil = { loops = 2 }\n'
     )
     assert list(read_settings(str(path)).network.levels) == ["io", "cf"]
     path.write_text(
