@@ -192,7 +192,7 @@ def test_a_session_of_another_format_is_refused_by_name(teaching, tmp_path):
     folder.save(teaching)
     facts = json.loads((tmp_path / "session.json").read_text())
     (tmp_path / "session.json").write_text(json.dumps({**facts, "version": 1}))
-    with pytest.raises(StorageError, match="session of format 1.*reads 2; go on with the version"):
+    with pytest.raises(StorageError, match=r"session of format 1.*reads 2; go on with the version"):
         folder.read()
 
 

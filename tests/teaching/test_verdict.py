@@ -53,7 +53,7 @@ def test_confidences_are_the_softmax_that_is_described():
 
 def test_an_unreadable_path_is_admitted():
     start = PUSHING_BUTTONS.position("UR")
-    nowhere = lasting(np.stack([start, start + [0, 0, 0.03]]), 10)
+    nowhere = lasting(np.stack([start, start + np.array([0, 0, 0.03])]), 10)
     said = verdict_on(nowhere, nowhere, PUSHING_BUTTONS, [])
     assert said.recognised is None and said.confidence == 0
     assert "upper right" in said.sentence and "do not know" in said.sentence

@@ -9,6 +9,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.body import Geometry
+from motionese.caregiver import intended_way
 from motionese.imitation import Scene
 from motionese.interfaces.page.messages import Answer
 from motionese.learning import Progress
@@ -64,8 +65,14 @@ def _task(task: Task, view: View) -> Answer:
             for name, place in task.places.items()
         },
         "primitives": [
-            {"sign": p.sign, "start": p.start, "end": p.end, "words": p.words}
-            for p in task.primitives
+            {
+                "sign": primitive.sign,
+                "start": primitive.start,
+                "end": primitive.end,
+                "words": primitive.words,
+                "way": listed(view.of_points(intended_way(PrimitiveSequence((primitive,)), task))),
+            }
+            for primitive in task.primitives
         ],
         "effects": [
             {
