@@ -6,7 +6,7 @@ from drawn import points_of
 from hypothesis import given
 from hypothesis import strategies as some
 
-from motionese.caregiver import lasting, moving
+from motionese.caregiver import lasting
 from motionese.task import PUSHING_BUTTONS
 from motionese.teaching.drawing import LONGEST_S, MOST_POINTS, Drawing, DrawingError, at_tempo
 
@@ -24,15 +24,6 @@ def test_a_demonstration_begins_and_ends_where_the_pen_did(draw):
     path = draw("UR ←↓")
     assert np.linalg.norm(path[0] - UR) < 0.01
     assert np.linalg.norm(path[-1] - LL) < 0.01
-
-
-def test_stillness_is_cut_to_what_the_caregiver_rests():
-    there, here = np.array([0.0, 0.0, 0.1]), np.zeros(3)
-    way = lasting(np.stack([here, there]), 5)
-    path = np.concatenate([[here] * 9, way, [there] * 9, way[::-1], [here] * 9])
-    cut = moving(path, rest_steps=2)
-    assert len(cut) == 1 + 4 + 2 + 4, "one row at the ends, two in the middle"
-    np.testing.assert_array_equal(cut[[0, -1]], [here, here])
 
 
 def test_slips_and_endless_scribbles_are_refused_in_words(scene):
