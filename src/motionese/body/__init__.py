@@ -14,9 +14,12 @@ except AttributeError as fault:
         "unset it, or install libegl1 and libgl1 (Debian, Ubuntu)"
     ) from fault
 
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field
 
 from motionese.body.actroid import Actroid, ActroidSettings
+from motionese.body.desk_arm import DeskArm, DeskArmSettings
 from motionese.body.geometry import Geometry
 from motionese.body.pictures import pictures
 from motionese.body.protocol import Robot, SimulatedRobot
@@ -24,11 +27,12 @@ from motionese.body.settings import SimulationSettings
 from motionese.body.tabletop_robot import TabletopRobot
 from motionese.task import Task
 
-BodySettings = ActroidSettings
+BodySettings = Annotated[ActroidSettings | DeskArmSettings, Field(discriminator="name")]
 """The settings of any simulated robot; their `name` says of which."""
 
 BODIES: dict[str, tuple[type[SimulationSettings], type[TabletopRobot[Any]]]] = {
     "actroid": (ActroidSettings, Actroid),
+    "desk_arm": (DeskArmSettings, DeskArm),
 }
 """Every simulated robot by its name in settings: its settings and its class."""
 
@@ -62,6 +66,7 @@ __all__ = [
     "Robot",
     "SimulatedRobot",
     "SimulationSettings",
+    "TabletopRobot",
     "load_model",
     "open_body",
     "pictures",
