@@ -12,9 +12,9 @@ from motionese.recordings import write
 def shown(small_settings, here):
     """A folder in which a person's demonstrations lie."""
     task = small_settings.task.task()
-    path = intended_way(task.sequence("UR ↓"), task)
+    paths = [(name, intended_way(task.sequence(name), task)) for name in ("UR ↓", "UR ←")]
     (here / "taught").mkdir()
-    write(here / "taught" / DEMONSTRATIONS, recording_of([("UR ↓", path)], rate_hz=20.0))
+    write(here / "taught" / DEMONSTRATIONS, recording_of(paths, rate_hz=20.0))
     return "recordings:taught"
 
 
@@ -28,8 +28,8 @@ def test_recorded_demonstrations_are_shown_and_noted(command, shown, here, monke
     monkeypatch.setattr("motionese.interfaces.commands.reproduce.go_through_all", go_through_all)
     arguments = ("reproduce", "--quick", "--seeds", "1", "--out", "run")
     status, output, errors = command(*arguments, "--caregiver", shown)
-    assert status == 2 and "not gone through" in errors and "UR ↓" in output
-    assert list(asked["recordings"]) == ["UR ↓"]
+    assert status == 2 and "not gone through" in errors and "UR ↓, UR ←" in output
+    assert list(asked["recordings"]) == ["UR ↓", "UR ←"]
     digest = json.loads((here / "run" / "settings.json").read_text())["demonstrations"]
     assert {run.shown for run in asked["runs"]} == {digest}
     status, _, errors = command(*arguments)

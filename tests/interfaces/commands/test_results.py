@@ -46,7 +46,7 @@ def lines(table):
 
 
 def test_medians_over_seeds_of_means_over_motions(folder):
-    assert lines(summary(folder, read_settings()))[4:-1] == [
+    assert lines(summary(folder, read_settings()))[5:-1] == [
         ["TD/MD", "3", "11.0", "6.0", "3.5", "4.0", "6 of 12"],
         ["TND/MND", "3", "12.0", "7.0", "4.5", "–", "6 of 12"],
     ]
@@ -63,4 +63,4 @@ def test_without_new_motions_and_buttons_there_are_dashes(folder):
     (folder / "triples.csv").unlink()
     loops = pd.read_csv(folder / "loops.csv").assign(buttons_due=0, buttons_pressed=0)
     loops.to_csv(folder / "loops.csv")
-    assert lines(summary(folder, read_settings()))[4][-2:] == ["–", "–"]
+    assert lines(summary(folder, read_settings()))[5][-2:] == ["–", "–"]
