@@ -17,7 +17,8 @@ from motionese.analysis.measures import Measures, typical_seed
 from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
-from motionese.analysis.style import SETTINGS, Drawing, Sketch, finished
+from motionese.analysis.style import Sketch
+from motionese.figure_style import SETTINGS, Drawing, finished
 from motionese.imitation import sample_sequence
 
 OVER_SEEDS = (
