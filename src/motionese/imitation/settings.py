@@ -130,16 +130,24 @@ def checked(model: type[M], table: Table) -> M:
         # Of a location, only what stands in the file: not which of several types was tried.
         path: list[str] = []
         here: Any = table
-        for part in first["loc"]:
+        parts = first["loc"]
+        for number, part in enumerate(parts, start=1):
+            lacks = first["type"] == "missing" and number == len(parts)
             if isinstance(here, list) and isinstance(part, int) and part < len(here):
                 path, here = [*path, str(part)], here[part]
-            elif isinstance(here, Mapping) and (part in here or first["type"] == "missing"):
+            elif isinstance(here, Mapping) and (part in here or lacks):
                 path, here = [*path, str(part)], here.get(part)
-            else:
+            elif not isinstance(here, Mapping):
                 break
         name = ".".join(path)
         if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
-            raise SettingError(unknown("setting", name, setting_names(model, path[:-1]))) from error
+            # One of another robot's settings is among the names of the group all the same.
+            known = [each for each in setting_names(model, path[:-1]) if each != name]
+            raise SettingError(unknown("setting", name, known)) from error
+        if first["type"] == "union_tag_invalid":
+            tag = first["ctx"]["discriminator"].strip("'")
+            wrong, allowed = first["input"][tag], first["ctx"]["expected_tags"]
+            raise SettingError(f"setting {name}.{tag} = {wrong!r}: allowed are {allowed}") from error
         if first["type"] == "missing":
             raise SettingError(f"setting {name} is missing") from error
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
