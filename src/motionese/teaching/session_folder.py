@@ -13,7 +13,14 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from motionese.caregiver import DEMONSTRATIONS, Demonstration, recording_of
+from motionese.caregiver import (
+    DEMONSTRATIONS,
+    Demonstration,
+    moving,
+    recording_of,
+    sequence_in,
+)
+from motionese.caregiver.recorded import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole
 from motionese.imitation import (
@@ -145,7 +152,7 @@ class SessionFolder:
                     content = io.BytesIO()
                     np.savez(content, drawn=entry.drawn, path=shown.path, begins=shown.begins)
                     write_whole(path, content.getvalue())
-            drawn = ((entry.motion, entry.drawn) for entry in notebook.entries)
+            drawn = ((_shows(entry, teaching.scene), entry.drawn) for entry in notebook.entries)
             recording = recording_of(drawn, rate_hz)
             if recording is not None:
                 write(self.path / DEMONSTRATIONS, recording)
@@ -216,3 +223,10 @@ class SessionFolder:
 def _new(began: str, scene: Scene) -> Learner:
     learner = newborn(scene, LEVELS)
     return babbled(scene, learner) if began == BABBLING else learner
+
+
+def _shows(entry: Entry, scene: Scene) -> str:
+    """Return what a drawing shows, as `caregiver.read_recorded` will read it."""
+    hand = moving(entry.drawn, scene.settings.caregiver.rest_steps)
+    sequence = sequence_in(hand, scene.task)
+    return sequence.name if sequence else f"{entry.motion.rstrip(f' {UNREAD}')} {UNREAD}"
