@@ -205,6 +205,19 @@ def test_what_was_taught_goes_to_a_robot(teaching, draw, tmp_path):
     np.testing.assert_allclose(path, own, rtol=1e-4, atol=1e-4)
 
 
+def test_what_a_killed_process_has_left_is_not_taken_for_what_is_new(teaching, draw, tmp_path):
+    folder = SessionFolder(tmp_path)
+    folder.save(teaching)
+    for left in ("shown-0001.npz", "learner-00002.safetensors"):
+        (tmp_path / left).write_bytes(b"of a session that was not finished")
+    again = folder.read()
+    again.show(draw("UR ←"), "drawn")
+    again.learn(nothing)
+    folder.save(again)
+    entry = SessionFolder(tmp_path).read().notebook.entries[0]
+    np.testing.assert_array_equal(entry.drawn, again.notebook.entries[0].drawn)
+
+
 def test_a_session_of_another_format_is_refused_by_name(teaching, tmp_path):
     folder = SessionFolder(tmp_path)
     folder.save(teaching)
