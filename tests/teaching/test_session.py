@@ -1,20 +1,33 @@
 """A session with a robot that knows nothing: show, imitate, learn, forget, grow, and the map."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from typed import typed
 
 import motionese as mo
 from motionese import runtime
 from motionese.body import Geometry
-from motionese.caregiver import Demonstration
+from motionese.caregiver import (
+    DEMONSTRATIONS,
+    Demonstration,
+    intended_way,
+    lasting,
+    read_recorded,
+)
 from motionese.errors import StorageError
+from motionese.experiment import read_settings
 from motionese.imitation import Scene, newborn, read_learner
+from motionese.interfaces.page.descriptions import scene_message
+from motionese.recordings import read
 from motionese.teaching.frames import film
 from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.notebook import Entry
 from motionese.teaching.session import PRACTICE, Teaching
 from motionese.teaching.session_folder import SessionFolder
+from motionese.teaching.view import View
 
 
 def nothing(*progress):
@@ -185,6 +198,24 @@ def test_what_was_taught_goes_to_a_robot(teaching, draw, tmp_path):
     model = runtime.load(file)
     player = runtime.Player(model, model.begin(taught.name, taught.values[0]))
     np.testing.assert_allclose([player.step() for _ in range(9)], expected[1:], rtol=1e-3)
+    new = str(tmp_path / "new.csv")
+    assert typed("generate", str(file), "--like", taught.name, "--out", new)[::2] == (0, "")
+    (path,) = mo.Motions.read(new).values
+    own = mo.generate(fit.network, taught.initial_state, len(taught.values))
+    np.testing.assert_allclose(path, own, rtol=1e-4, atol=1e-4)
+
+
+def test_what_a_killed_process_has_left_is_not_taken_for_what_is_new(teaching, draw, tmp_path):
+    folder = SessionFolder(tmp_path)
+    folder.save(teaching)
+    for left in ("shown-0001.npz", "learner-00002.safetensors"):
+        (tmp_path / left).write_bytes(b"of a session that was not finished")
+    again = folder.read()
+    again.show(draw("UR ←"), "drawn")
+    again.learn(nothing)
+    folder.save(again)
+    entry = SessionFolder(tmp_path).read().notebook.entries[0]
+    np.testing.assert_array_equal(entry.drawn, again.notebook.entries[0].drawn)
 
 
 def test_a_session_of_another_format_is_refused_by_name(teaching, tmp_path):
@@ -196,6 +227,24 @@ def test_a_session_of_another_format_is_refused_by_name(teaching, tmp_path):
         folder.read()
 
 
+def test_the_experiment_takes_what_was_drawn_and_leaves_out_what_it_cannot_read(
+    teaching, draw, tmp_path
+):
+    scene, task = teaching.scene, teaching.scene.task
+    teaching.show(draw("UR ↓"), "drawn")
+    ends = np.stack([task.position(name) for name in ("UR", "LL")])
+    diagonal = scene.body.reachable(lasting(ends, 20))
+    shown = Demonstration(diagonal, (0,))
+    # The robot took the diagonal for a stroke that it knows.
+    notebook = teaching.notebook.with_entry(Entry(2, "UR ↓", "drawn", diagonal, shown))
+    teaching.return_to(replace(teaching.standing, notebook=notebook))
+    SessionFolder(tmp_path).save(teaching)
+    names = [episode.name for episode in read(tmp_path / DEMONSTRATIONS).episodes]
+    assert names == ["UR ↓", "UR ↓ ?"]
+    recorded = read_recorded(tmp_path, task, scene.settings.caregiver, scene.body)
+    assert [len(each) for each in recorded.recordings.values()] == [1]
+
+
 def test_a_new_robot_leaves_the_old_one_in_a_subfolder(teaching, draw, tmp_path):
     folder = SessionFolder(tmp_path)
     teaching.show(draw("UR ←"), "drawn")
@@ -205,3 +254,21 @@ def test_a_new_robot_leaves_the_old_one_in_a_subfolder(teaching, draw, tmp_path)
     assert anew.notebook.entries == () and folder.id != before
     assert SessionFolder(tmp_path / "earlier-01").read().notebook.entries[0].motion == "UR ←"
     assert SessionFolder(tmp_path).read().notebook.entries == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("preset", "name"), [("shapes", "T ◝◡"), ("desk_arm", "UR ↓↑")])
+def test_any_task_and_any_robot_can_be_taught(preset, name, compiled):
+    small = ("training.epochs=5", "recognition.iterations=5")
+    scene = Scene(read_settings(preset, small, quick=True), 0)
+    teaching = Teaching(scene, newborn(scene, 2))
+    path = scene.body.reachable(intended_way(scene.task.sequence(name), scene.task, 28))
+    observed = teaching.show(path, "drawn")
+    assert observed.entry.motion == name and len(observed.watched.begins) == 2
+    change = teaching.learn(nothing)
+    assert np.isfinite(change.after_cm)
+    geometry, view = Geometry(scene.body.model), View(scene.body, scene.task)
+    made = film(geometry, teaching.learner.network, teaching.imitate().performance, 10.0)
+    assert made.columns["effects"].shape[1] == len(scene.task.effects)
+    told = scene_message(scene, view, geometry)
+    assert set(told["task"]["places"]) == set(scene.task.places) and told["robot"]["joints"]

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from motionese.body import open_body
-from motionese.body.actroid.reach import REACH_M, SHOULDER
 from motionese.experiment import read_settings
-from motionese.task import PUSHING_BUTTONS, SHAPES
 from motionese.teaching.view import View, hand_seen
 
 
-@pytest.fixture(scope="module", params=[PUSHING_BUTTONS, SHAPES], ids=lambda task: task.name)
+@pytest.fixture(scope="module", params=["default", "shapes", "desk_arm"])
 def seen(request):
-    """A task, the robot at it, and its view."""
-    body = open_body(read_settings().body, request.param)
-    return request.param, body, View(body, request.param)
+    """A task, a robot at it, and its view."""
+    settings = read_settings(request.param)
+    task = settings.task.task()
+    body = open_body(settings.body, task)
+    return task, body, View(body, task)
 
 
 def test_the_places_lie_as_they_do_before_the_robot(seen):
@@ -47,7 +47,7 @@ def test_a_drawn_place_is_the_place(seen):
 
 def test_points_out_of_reach_become_the_nearest_that_the_arm_reaches(seen):
     positions, strayed = seen[2].positions(np.array([[-1.0, 2.0], [2.0, -1.0], [0.5, 0.5]]))
-    np.testing.assert_allclose(np.linalg.norm(positions - SHOULDER, axis=1), REACH_M)
+    np.testing.assert_allclose(seen[1].reachable(positions), positions, atol=1e-9)
     assert strayed.tolist() == [True, True, False]
 
 

@@ -40,11 +40,11 @@ def robot_of(path: Path) -> TrainedRobot:
         SettingError: Settings that this version does not know.
         StorageError: A checkpoint that cannot be read.
     """
-    above = (path, *path.absolute().parents[:3])
-    folder = next((p for p in above if (p / SETTINGS).is_file()), path)
+    whole = path.resolve()
+    folder = next((p for p in (whole, *whole.parents[:3]) if (p / SETTINGS).is_file()), path)
     settings = study_of(run_settings(folder))
     runs = _runs(folder, settings)
-    asked = str(path.absolute().relative_to(folder.absolute())).strip(".")
+    asked = str(whole.relative_to(folder.resolve())).strip(".")
     if asked:
         wanted = asked.replace("seed-", "").replace("/", "-").casefold()
         runs = [r for r in runs if f"{r.condition.folder}-{r.seed}".casefold().startswith(wanted)]

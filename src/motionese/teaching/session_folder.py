@@ -13,7 +13,14 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from motionese.caregiver import DEMONSTRATIONS, Demonstration, recording_of
+from motionese.caregiver import (
+    DEMONSTRATIONS,
+    Demonstration,
+    moving,
+    recording_of,
+    sequence_in,
+)
+from motionese.caregiver.recorded import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole
 from motionese.imitation import (
@@ -51,7 +58,9 @@ class SessionFolder:
         """Keep a session in a folder, which is made when it is first saved."""
         self.path = path
         self.id, self.began = uuid4().hex[:12], ""
-        self._written = 0
+        # What this process knows to be written: the learner's number, and the entries'. A file that
+        # a killed process has left under a number that was not yet given counts for nothing.
+        self._written, self._entries = 0, set[int]()
 
     @property
     def exists(self) -> bool:
@@ -86,7 +95,8 @@ class SessionFolder:
         own = [*self.path.glob("*.npz"), *self.path.glob("*.safetensors"), self.path / SESSION]
         for file in own:
             file.rename(earlier / file.name)
-        self.id, self.began, self._written = uuid4().hex[:12], began, 0
+        self.id, self.began = uuid4().hex[:12], began
+        self._written, self._entries = 0, set()
         teaching = Teaching(before.scene, learner)
         self.save(teaching)
         return teaching
@@ -126,7 +136,7 @@ class SessionFolder:
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
                 "choose another --session"
             )
-        self._written = number
+        self._written, self._entries = number, {entry.number for entry in notebook.entries}
         scene, learner = Scene(settings, seed), self.learner(number)
         return Teaching(scene, learner, notebook, number=number, numbers=numbers)
 
@@ -140,12 +150,12 @@ class SessionFolder:
                 write_learner(self._learner_path(number), teaching.learner, rate_hz, {})
                 self._written = number
             for entry in notebook.entries:
-                path, shown = self._entry_path(entry.number), entry.demonstration
-                if not path.is_file():
-                    content = io.BytesIO()
+                if entry.number not in self._entries:
+                    content, shown = io.BytesIO(), entry.demonstration
                     np.savez(content, drawn=entry.drawn, path=shown.path, begins=shown.begins)
-                    write_whole(path, content.getvalue())
-            drawn = ((entry.motion, entry.drawn) for entry in notebook.entries)
+                    write_whole(self._entry_path(entry.number), content.getvalue())
+                    self._entries.add(entry.number)
+            drawn = ((_shows(entry, teaching.scene), entry.drawn) for entry in notebook.entries)
             recording = recording_of(drawn, rate_hz)
             if recording is not None:
                 write(self.path / DEMONSTRATIONS, recording)
@@ -216,3 +226,10 @@ class SessionFolder:
 def _new(began: str, scene: Scene) -> Learner:
     learner = newborn(scene, LEVELS)
     return babbled(scene, learner) if began == BABBLING else learner
+
+
+def _shows(entry: Entry, scene: Scene) -> str:
+    """Return what a drawing shows, as `caregiver.read_recorded` will read it."""
+    hand = moving(entry.drawn, scene.settings.caregiver.rest_steps)
+    sequence = sequence_in(hand, scene.task)
+    return sequence.name if sequence else f"{entry.motion.rstrip(f' {UNREAD}')} {UNREAD}"
