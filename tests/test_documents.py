@@ -69,7 +69,7 @@ def test_make_targets_exist(page):
 
 
 def test_settings_named_in_the_docs_exist():
-    from motionese.experiment.reading import read_settings
+    from motionese.experiment import read_settings
 
     for page in PAGES:
         for override in re.findall(r"--set (\S+=[^\s`]+)", page.read_text()):
