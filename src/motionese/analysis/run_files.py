@@ -22,6 +22,8 @@ from motionese.experiment.run import ENDED, Run
 
 ENDINGS = ("finished", "diverged")
 WHOLE_NUMBERS = ("seed", "loop", "phase", "levels")
+KEPT = ("activity", "commanded", "sensed", "begins", "poses")
+"""What `inside.npz` holds beside paths and effects."""
 WORDS = ("condition", "motion", "primitive", "status")
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
@@ -86,6 +88,9 @@ def read_inside(path: Path) -> dict[str, ndarray]:
     try:
         with zipfile.ZipFile(path) as archive:
             names = [name.removesuffix(".npy") for name in archive.namelist()]
+        missing = [name for name in KEPT if name not in names]
+        if missing:
+            raise ValueError(f"no {', '.join(missing)}")
         with np.load(path, allow_pickle=False) as kept:
             return {name: kept[name] for name in names}
     except (

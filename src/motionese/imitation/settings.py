@@ -130,24 +130,21 @@ def checked(model: type[M], table: Table) -> M:
         # Of a location, only what stands in the file: not which of several types was tried.
         path: list[str] = []
         here: Any = table
-        parts = first["loc"]
-        for number, part in enumerate(parts, start=1):
-            lacks = first["type"] == "missing" and number == len(parts)
+        missing = first["loc"][-1:] if first["type"] == "missing" else ()
+        for part in first["loc"]:
             if isinstance(here, list) and isinstance(part, int) and part < len(here):
                 path, here = [*path, str(part)], here[part]
-            elif isinstance(here, Mapping) and (part in here or lacks):
+            elif isinstance(here, Mapping) and (part in here or part in missing):
                 path, here = [*path, str(part)], here.get(part)
-            elif not isinstance(here, Mapping):
-                break
         name = ".".join(path)
         if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
-            # One of another robot's settings is among the names of the group all the same.
-            known = [each for each in setting_names(model, path[:-1]) if each != name]
+            known = [n for n in setting_names(model, path[:-1]) if n != name]
             raise SettingError(unknown("setting", name, known)) from error
         if first["type"] == "union_tag_invalid":
-            tag = first["ctx"]["discriminator"].strip("'")
-            wrong, allowed = first["input"][tag], first["ctx"]["expected_tags"]
-            raise SettingError(f"setting {name}.{tag} = {wrong!r}: allowed are {allowed}") from error
+            asked, among = first["ctx"]["tag"], first["ctx"]["expected_tags"]
+            raise SettingError(
+                f"setting {name}.name = '{asked}': input should be {among}"
+            ) from error
         if first["type"] == "missing":
             raise SettingError(f"setting {name} is missing") from error
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""

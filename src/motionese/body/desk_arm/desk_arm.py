@@ -120,7 +120,7 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
         return gaze
 
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return the points of a path [m, world] themselves; the arm's nearest where out of reach."""
+        """Return the points of a path [m, world], or the nearest that the arm reaches."""
         return self.marker_at(self.angles_nearest(path))
 
     def bearing(self, values: Float[ndarray, "*shape 5"]) -> Float[ndarray, "*shape 2"]:

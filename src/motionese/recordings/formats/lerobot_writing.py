@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy import ndarray
 
 from motionese.errors import RecordingError, needs
@@ -114,6 +113,7 @@ def _write_parquets(
     folder: Path, whole: dict[str, ndarray], episodes: list[dict[str, ndarray]]
 ) -> None:
     try:
+        import pandas as pd  # noqa: PLC0415
         import pyarrow as pa  # noqa: PLC0415
         from pyarrow.parquet import write_table  # noqa: PLC0415
     except ImportError as error:
