@@ -124,6 +124,7 @@ class Person:
 
     def lets_it_learn(self) -> dict[str, Any]:
         self.presses("learn")
+        self.until(lambda state: state["busy"])
         return self.until(lambda state: state["step"] == "learned" and not state["busy"])
 
     def reads(self, test_id: str) -> str:
