@@ -61,7 +61,7 @@ def test_on_a_terminal_one_bar_for_all_and_one_for_each_under_way(runs):
     with Display(out, runs, loops=4) as display:
         display.loop_done(runs[0], 1)
         display.loop_done(runs[1], 4)
-        display._progress.refresh()
+        display._bars.refresh()
         shown = out.file.getvalue()
     assert "all runs" in shown
     assert "TD/MD seed 0" in shown
@@ -79,8 +79,8 @@ def test_time_left_is_told_once_a_tenth_is_done(runs, monkeypatch, loops, second
     now = [0.0]
     out = console(terminal=False)
     display = Display(out, runs[:1], loops=20)
-    display._progress.get_time = lambda: now[0]
-    display._progress.reset(display._all)
+    display._bars.get_time = lambda: now[0]
+    display._bars.reset(display._all)
     for loop in range(loops + 1):
         display.loop_done(runs[0], loop)
         now[0] += seconds_a_loop

@@ -9,8 +9,8 @@ import pytest
 from typed import CHANNELS, NAMES, arm_motions, refused, typed, write_csv
 
 from motionese import Motions, Training, load
+from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.train import read_held_out, read_training
-from motionese.interfaces.commands.training_display import TrainingDisplay
 
 SHORT = ("--levels", "10:3,3:15", "--epochs", "100", "--held-out", "0")
 HELD_OUT = ("--levels", "10:3,3:15", "--held-out", "wave,lift", "--set", "noise=cf:0.01")

@@ -1,27 +1,109 @@
-"""Progress over all runs: bars on a terminal, now and then a line elsewhere."""
+"""Progress of all runs, or of one training: bars on a terminal, now and then a line elsewhere."""
 
 import math
 import time
 from collections.abc import Sequence
-from types import TracebackType
+from typing import TYPE_CHECKING, Self
 
 from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
-    Progress,
     ProgressColumn,
     Task,
     TaskID,
     TextColumn,
+    TimeRemainingColumn,
 )
+from rich.progress import Progress as Bars
+from rich.table import Column
 from rich.text import Text
 
-from motionese.experiment.run import Run
+from motionese.learning import Progress
 
-LINE_EVERY_S = 20.0
-WHOLE_HISTORY_S = 1e9
-"""Loops come in bursts, with compilation between them: only the whole history gives a rate."""
+if TYPE_CHECKING:
+    from motionese.experiment import Run
+
+LINE_EVERY_S, TRAINING_LINE_EVERY_S = 20.0, 10.0
+WHOLE_HISTORY_S, TRAINING_HISTORY_S = 1e9, 60.0
+"""How far back the time left is told from. Loops come in bursts, with compilation between them:
+only the whole history gives a rate."""
+
+
+class _Display:
+    """Bars while it is entered, if the console is a terminal."""
+
+    def __init__(self, console: Console, bars: Bars) -> None:
+        self._console, self._bars, self._said = console, bars, time.monotonic()
+
+    def __enter__(self) -> Self:
+        if self._console.is_terminal:
+            self._bars.start()
+        return self
+
+    def __exit__(self, *left: object) -> None:
+        if self._console.is_terminal:
+            self._bars.stop()
+
+    def _say(self, parts: Sequence[str], *, after_s: float = -1.0) -> None:
+        """Write a line where there are no bars, if the last is so long ago."""
+        if not self._console.is_terminal and time.monotonic() - self._said > after_s:
+            self._said = time.monotonic()
+            self._console.print("; ".join(filter(None, parts)))
+
+
+class Display(_Display):
+    """One display for many runs: all loops of all runs, and the runs under way."""
+
+    def __init__(self, console: Console, runs: Sequence["Run"], loops: int) -> None:
+        """Prepare for runs of so many loops each, counting what they have done already."""
+        bars = Bars(
+            *(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()),
+            *(TextColumn("loops"), _TimeLeft()),
+            console=console,
+            transient=True,
+            speed_estimate_period=WHOLE_HISTORY_S,
+        )
+        super().__init__(console, bars)
+        self._loops = loops
+        self._done = {run.name: loops if run.ended() else run.loops_done() for run in runs}
+        self._left = sum(run.ended() is None for run in runs)
+        self._rows: dict[str, TaskID] = {}
+        done, total = sum(self._done.values()), loops * len(runs)
+        self._all = bars.add_task(
+            "all runs", total=total, completed=done, told_from=100 * (0.9 * done / total + 0.1)
+        )
+
+    def loop_done(self, run: "Run", loop: int) -> None:
+        """Show a run's last whole loop; its row appears with the first one that is told."""
+        if run.name not in self._rows:
+            self._rows[run.name] = self._bars.add_task(
+                run.name, total=self._loops, told_from=math.inf
+            )
+        doing = run.name if loop < self._loops else f"{run.name}, evaluation"
+        self._bars.update(self._rows[run.name], completed=loop, description=doing)
+        self._advance(run, loop)
+        self._say(["going on", self._to_go()], after_s=LINE_EVERY_S)
+
+    def run_ended(self, run: "Run", failure: str) -> None:
+        """Take a run off the display."""
+        self._left -= 1
+        if run.name in self._rows:
+            self._bars.update(self._rows[run.name], visible=False)
+        self._advance(run, self._loops)
+        self._say([f"{run.name} {'cannot go on' if failure else 'ended'}", self._to_go()])
+
+    def _advance(self, run: "Run", loop: int) -> None:
+        # A run whose process died begins again at its checkpoint, perhaps before what was told.
+        further = max(loop - self._done[run.name], 0)
+        self._done[run.name] += further
+        self._bars.advance(self._all, further)
+
+    def _to_go(self) -> str:
+        task = self._bars.tasks[0]
+        runs = f"{self._left} run{'' if self._left == 1 else 's'} to go"
+        parts = [runs, f"{task.completed:g} of {task.total:g} loops", _time_left(task)]
+        return ", ".join(filter(None, parts))
 
 
 class _TimeLeft(ProgressColumn):
@@ -31,84 +113,45 @@ class _TimeLeft(ProgressColumn):
         return Text(_time_left(task))
 
 
-class Display:
-    """One display for many runs: all loops of all runs, and the runs under way."""
-
-    def __init__(self, console: Console, runs: Sequence[Run], loops: int) -> None:
-        """Prepare for runs of so many loops each, counting what they have done already."""
-        self._console, self._loops = console, loops
-        self._done = {run.name: loops if run.ended() else run.loops_done() for run in runs}
-        self._left = sum(run.ended() is None for run in runs)
-        self._rows: dict[str, TaskID] = {}
-        self._said = time.monotonic()
-        self._progress = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TextColumn("loops"),
-            _TimeLeft(),
-            console=console,
-            transient=True,
-            speed_estimate_period=WHOLE_HISTORY_S,
-        )
-        done, total = sum(self._done.values()), loops * len(runs)
-        self._all = self._progress.add_task(
-            "all runs", total=total, completed=done, told_from=100 * (0.9 * done / total + 0.1)
-        )
-
-    def __enter__(self) -> "Display":
-        if self._console.is_terminal:
-            self._progress.start()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self._console.is_terminal:
-            self._progress.stop()
-
-    def loop_done(self, run: Run, loop: int) -> None:
-        """Show a run's last whole loop; its row appears with the first one that is told."""
-        if run.name not in self._rows:
-            self._rows[run.name] = self._progress.add_task(
-                run.name, total=self._loops, told_from=math.inf
-            )
-        doing = run.name if loop < self._loops else f"{run.name}, evaluation"
-        self._progress.update(self._rows[run.name], completed=loop, description=doing)
-        self._advance(run, loop)
-        if time.monotonic() - self._said > LINE_EVERY_S:
-            self._say("going on")
-
-    def run_ended(self, run: Run, failure: str) -> None:
-        """Take a run off the display."""
-        self._left -= 1
-        if run.name in self._rows:
-            self._progress.update(self._rows[run.name], visible=False)
-        self._advance(run, self._loops)
-        self._say(f"{run.name} {'cannot go on' if failure else 'ended'}")
-
-    def _advance(self, run: Run, loop: int) -> None:
-        # A run whose process died begins again at its checkpoint, perhaps before what was told.
-        further = max(loop - self._done[run.name], 0)
-        self._done[run.name] += further
-        self._progress.advance(self._all, further)
-
-    def _say(self, news: str) -> None:
-        if self._console.is_terminal:
-            return
-        self._said = time.monotonic()
-        task = self._progress.tasks[0]
-        runs = f"{self._left} run{'' if self._left == 1 else 's'} to go"
-        parts = [runs, f"{task.completed:g} of {task.total:g} loops", _time_left(task)]
-        self._console.print(f"{news}; {', '.join(filter(None, parts))}")
-
-
 def _time_left(task: Task) -> str:
     """Return how long a task will take in words, or "" before a tenth of it is done."""
     seconds = task.time_remaining
     if not seconds or task.finished or task.percentage < task.fields["told_from"]:
         return ""
     return f"about {seconds:.0f} s left" if seconds < 100 else f"about {seconds / 60:.0f} min left"
+
+
+class TrainingDisplay(_Display):
+    """Shows epochs, loss, errors in closed loop, and the time left of one training."""
+
+    def __init__(self, console: Console, epochs: int, done: int) -> None:
+        """Prepare for so many epochs, some of them done before."""
+        bars = Bars(
+            BarColumn(bar_width=None),
+            MofNCompleteColumn(table_column=Column(no_wrap=True)),
+            TextColumn("{task.description}", table_column=Column(no_wrap=True)),
+            TimeRemainingColumn(compact=True, table_column=Column(no_wrap=True)),
+            console=console,
+            transient=True,
+            expand=True,
+            speed_estimate_period=TRAINING_HISTORY_S,
+        )
+        super().__init__(console, bars)
+        self._epochs = epochs
+        self._task = bars.add_task("", total=epochs, completed=done)
+
+    def show(self, progress: Progress) -> None:
+        """Show how far training is."""
+        parts = [f"loss {progress.loss:.3g}", f"closed loop {progress.closed_loop_error:.1%}"]
+        if progress.validation_error is not None:
+            parts.append(f"held out {progress.validation_error:.1%}")
+        told = f"{', '.join(parts)} of range"
+        self._bars.update(self._task, completed=progress.epoch, description=told)
+        left = self._bars.tasks[0].time_remaining
+        self._say(
+            [
+                f"{progress.epoch} of {self._epochs} epochs",
+                *(told, f"about {left:.0f} s left" if left else ""),
+            ],
+            after_s=TRAINING_LINE_EVERY_S,
+        )

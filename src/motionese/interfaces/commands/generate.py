@@ -10,8 +10,8 @@ from motionese.channels import Channels
 from motionese.errors import NO_MOTION, SettingError, unknown
 from motionese.interfaces.commands.initial_states import read_initial_states
 from motionese.interfaces.commands.motion_figure import write_figure
-from motionese.interfaces.commands.motion_text import reach
 from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_output
+from motionese.interfaces.commands.summaries import reach
 from motionese.learning import Fit, Motions, generate_sequence, load
 
 

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from motionese.interfaces.commands.motion_figure import write_figure
 from motionese.interfaces.commands.outputs import PICTURES, check_output
-from motionese.interfaces.commands.tables import number_table
+from motionese.interfaces.commands.summaries import number_table
 from motionese.recordings import Recording, Survey, choose, chosen, read, survey
 
 MOST_EPISODES = 40

@@ -1,10 +1,15 @@
-"""What a command is to write, looked at before it works for minutes."""
+"""What commands write: looked at before they work for minutes; models and motions for others."""
 
 import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from motionese.errors import SettingError, StorageError
+from rich.console import Console
+
+from motionese.errors import MotioneseError, SettingError, StorageError
+from motionese.interfaces.commands.summaries import description
+from motionese.interfaces.onnx_export import TOLERANCE, export_onnx
+from motionese.learning import Motions, load
 from motionese.recordings import FORMATS
 
 RECORDINGS = tuple(suffix for known in FORMATS.values() for suffix in known.suffixes)
@@ -34,3 +39,25 @@ def check_output(option: str, path: Path, suffixes: Sequence[str]) -> None:
         raise StorageError(f"{option} {path}: there is no folder {path.parent}")
     if not os.access(folder, os.W_OK):
         raise StorageError(f"{option} {path}: the folder {path.parent} cannot be written to")
+
+
+def export_model(console: Console, model: Path, out: Path) -> None:
+    """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
+    check_output("--onnx", out, (".onnx",))
+    difference = export_onnx(out, load(model))
+    console.print(
+        f"{out}: one step (x, u → y, u_next); "
+        f"differs from the network by at most {difference:.1e}, allowed {TOLERANCE:g}"
+    )
+
+
+def export_motions(console: Console, source: Path, out: Path, to: str | None) -> None:
+    """Write motions in another format, and tell what was written."""
+    if source.suffix == MODEL_SUFFIX:
+        raise SettingError(f"{source}: a model, not recordings; write its step with --onnx FILE")
+    try:
+        motions = Motions.read(source)
+    except MotioneseError as error:
+        raise type(error)(f"{error} (with motionese import, whose .npz can be exported)") from error
+    motions.write(out, to)
+    console.print(f"{out}: {description(motions)}")

@@ -33,7 +33,7 @@ def import_recordings(
     with JSON messages, or .npz that motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
-        from motionese.interfaces.commands.motion_text import description
+        from motionese.interfaces.commands.summaries import description
         from motionese.learning import Motions
 
         motions = Motions.read(source, **as_read(**reading))
@@ -79,7 +79,7 @@ def export(
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""
     with plainly("stopped; nothing was written") as console:
         from motionese.errors import SettingError
-        from motionese.interfaces.commands.export import export_model, export_motions
+        from motionese.interfaces.commands.outputs import export_model, export_motions
 
         if onnx is not None and out is None and to is None:
             export_model(console, source, onnx)

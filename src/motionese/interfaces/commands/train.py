@@ -9,11 +9,10 @@ from pydantic import ValidationError
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
+from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.model_commands import checkpoint_of
-from motionese.interfaces.commands.motion_text import description
 from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
-from motionese.interfaces.commands.tables import error_table, verdict
-from motionese.interfaces.commands.training_display import TrainingDisplay
+from motionese.interfaces.commands.summaries import description, error_table, verdict
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Fit, Motions, Progress, Training, save, split, train
 from motionese.learning.course import epochs_done

@@ -12,8 +12,7 @@ from contextlib import ExitStack
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from types import TracebackType
-from typing import Protocol, runtime_checkable
+from typing import Protocol, Self, runtime_checkable
 
 from motionese.errors import SettingError, needs, unknown
 from motionese.files import write_whole
@@ -59,15 +58,10 @@ class Logs:
             for log in self._logs:
                 closing.callback(log.close)
 
-    def __enter__(self) -> "Logs":
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *left: object) -> None:
         self.close()
 
 
