@@ -41,6 +41,23 @@ def checked(
     return values, masks, called
 
 
+def checked_weights(
+    weights: Sequence[Any], values: Sequence[ndarray], names: Sequence[str]
+) -> tuple[ndarray, ...]:
+    """Return the weights of motions' values, copied; `MotionError` where they cannot be."""
+    counts = tuple(np.array(w, dtype=np.float64) for w in weights)
+    if len(counts) != len(values):
+        raise MotionError(f"{len(values)} motions need as many weights, got {len(counts)}")
+    for name, count, value in zip(names, counts, values, strict=True):
+        if count.shape != value.shape:
+            raise MotionError(
+                f"motion '{name}': its weights have shape {count.shape}, its values {value.shape}"
+            )
+        if not (np.isfinite(count).all() and count.min() >= 0):
+            raise MotionError(f"motion '{name}': weights must be finite and ≥ 0")
+    return counts
+
+
 def channels_of(
     values: Sequence[ndarray],
     masks: Sequence[ndarray],

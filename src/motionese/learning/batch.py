@@ -14,18 +14,29 @@ class Batch(NamedTuple):
 
     Attributes:
         sensed: Values in the unit interval; 0.5 where nothing was observed.
-        observed: 1 where a value was observed, 0 where not or where a motion has ended.
+        observed: Gate of the input: 1 where a value was observed, 0 where not or where a motion
+            has ended.
+        weight: Weight of the error: how much a value counts; 0 where it was not observed.
     """
 
     sensed: Float[Array, "S T D"]
     observed: Float[Array, "S T D"]
+    weight: Float[Array, "S T D"]
 
 
-def padded(unit: Sequence[ndarray], masks: Sequence[ndarray], rows: int, count: int) -> Batch:
+def padded(
+    unit: Sequence[ndarray],
+    masks: Sequence[ndarray],
+    weights: Sequence[ndarray],
+    rows: int,
+    count: int,
+) -> Batch:
     """Return motions [T_i, D] in the unit interval as a batch of `count` motions of `rows`."""
     sensed = np.full((count, rows, unit[0].shape[1]), 0.5)
-    observed = np.zeros(sensed.shape)
-    for i, (value, mask) in enumerate(zip(unit, masks, strict=True)):
+    observed, weight = np.zeros(sensed.shape), np.zeros(sensed.shape)
+    for i, (value, mask, counts) in enumerate(zip(unit, masks, weights, strict=True)):
         sensed[i, : len(value)] = np.where(mask, value, 0.5)
         observed[i, : len(value)] = mask
-    return Batch(jnp.asarray(sensed, jnp.result_type(float)), jnp.asarray(observed, float))
+        weight[i, : len(value)] = mask * counts
+    kind = jnp.result_type(float)
+    return Batch(*(jnp.asarray(part, kind) for part in (sensed, observed, weight)))

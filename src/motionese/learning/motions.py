@@ -1,11 +1,12 @@
 """Motions: sequences of different lengths over named channels, with a mask of what was observed.
 
 Nothing that pads a batch has a meaning: a padded or unobserved value enters neither the error nor
-the network's input.
+the network's input. What was observed and how much it counts are two things: `observed` gates the
+input, `weights` weigh the error.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import MotionError, unknown
-from motionese.learning.arrays import channels_of, checked
+from motionese.learning.arrays import channels_of, checked, checked_weights
 from motionese.learning.batch import Batch, padded
 from motionese.recordings import Episode, Recording, choose, prepare
 from motionese.recordings import read as read_recording
@@ -32,6 +33,8 @@ class Motions:
         channels: Names, units and ranges of the D columns.
         rate_hz: Rows per second [Hz].
         names: One name per motion.
+        weights: One array [T_i, D] per motion: how much each value counts in the error; None
+            where all that was observed counts alike.
     """
 
     values: tuple[Float[ndarray, "_ D"], ...]
@@ -39,6 +42,7 @@ class Motions:
     channels: Channels
     rate_hz: float
     names: tuple[str, ...]
+    weights: tuple[Float[ndarray, "_ D"], ...] | None = None
 
     @classmethod
     def from_arrays(
@@ -51,6 +55,7 @@ class Motions:
         units: Mapping[str, str] | None = None,
         ranges: Mapping[str, tuple[float, float]] | None = None,
         names: Sequence[str] | None = None,
+        weights: Sequence[Any] | None = None,
     ) -> "Motions":
         """Make motions of arrays [T_i, D] and check them.
 
@@ -64,10 +69,14 @@ class Motions:
             ranges: Ranges (low, high) by channel name; from the data with a margin where left
                 out. For channels given by name.
             names: One name per motion; numbered where left out.
+            weights: One array [T_i, D] ≥ 0 per motion, which weighs the squared error of every
+                value in training and recognition: more for a channel that must be met closely,
+                less for rows that are known badly. A value of weight 0 is still the network's
+                input if it was observed; one that was not observed has no weight.
 
         Raises:
-            MotionError: No motions; a motion of fewer than two rows, of another width, or with a
-                value that is observed and not finite.
+            MotionError: No motions; a motion of fewer than two rows, of another width, with a
+                value that is observed and not finite, or with a weight below 0.
             ChannelError: A channel that never changes and has no range given, or a unit or range
                 of a channel that is not there.
         """
@@ -77,7 +86,8 @@ class Motions:
         values, masks, called = checked(arrays, observed, names, labels)
         if not isinstance(channels, Channels):
             channels = channels_of(values, masks, labels, units or {}, ranges or {})
-        return cls(values, masks, channels, float(rate_hz), called)
+        counts = None if weights is None else checked_weights(weights, values, called)
+        return cls(values, masks, channels, float(rate_hz), called, counts)
 
     @classmethod
     def read(
@@ -124,7 +134,7 @@ class Motions:
         )
 
     def write(self, path: str | Path, format: str | None = None) -> None:
-        """Write the motions, whole or not at all.
+        """Write the motions without their weights, whole or not at all.
 
         Args:
             path: The file or folder to write.
@@ -161,24 +171,23 @@ class Motions:
         rows = [self._row(one) for one in which]
         if not rows:
             raise MotionError("no motions chosen; at least one is needed")
-        return Motions(
-            tuple(self.values[i] for i in rows),
-            tuple(self.observed[i] for i in rows),
-            self.channels,
-            self.rate_hz,
-            tuple(self.names[i] for i in rows),
+        return replace(
+            self,
+            values=tuple(self.values[i] for i in rows),
+            observed=tuple(self.observed[i] for i in rows),
+            names=tuple(self.names[i] for i in rows),
+            weights=self.weights and tuple(self.weights[i] for i in rows),
         )
 
     def showing(self, channels: Sequence[str]) -> "Motions":
         """Return the same motions with only the named channels observed."""
         seen = np.zeros(len(self.channels), dtype=bool)
         seen[self.channels.indices(channels)] = True
-        masks = tuple(mask & seen for mask in self.observed)
-        return Motions(self.values, masks, self.channels, self.rate_hz, self.names)
+        return replace(self, observed=tuple(mask & seen for mask in self.observed))
 
     def scaled_by(self, channels: Channels) -> "Motions":
         """Return the same values, to be mapped to the unit interval by other channels."""
-        return Motions(self.values, self.observed, channels, self.rate_hz, self.names)
+        return replace(self, channels=channels)
 
     def batch(self, length: int | None = None, capacity: int | None = None) -> Batch:
         """Return the motions padded to one length.
@@ -201,20 +210,14 @@ class Motions:
             self.channels.to_unit(np.where(mask, value, 0.0))
             for value, mask in zip(self.values, self.observed, strict=True)
         ]
-        return padded(unit, self.observed, rows, count)
+        return padded(unit, self.observed, self.weights or self.observed, rows, count)
 
     def __len__(self) -> int:
         return len(self.values)
 
     def __getitem__(self, index: int) -> "Motions":
         """Return one motion as Motions."""
-        return Motions(
-            (self.values[index],),
-            (self.observed[index],),
-            self.channels,
-            self.rate_hz,
-            (self.names[index],),
-        )
+        return self.chosen([range(len(self))[index]])
 
     def __iter__(self) -> Iterator["Motions"]:
         return (self[i] for i in range(len(self)))

@@ -50,5 +50,5 @@ def predictions(
 
 
 def squared_errors(predicted: Float[Array, "S T D"], batch: Batch) -> Float[Array, " S"]:
-    """Equation (3), summed over the observed values of every motion; row 0 predicts nothing."""
-    return (((predicted - batch.sensed) ** 2) * batch.observed)[:, 1:].sum((1, 2))
+    """Equation (3), summed by weight over every motion; row 0 predicts nothing."""
+    return (((predicted - batch.sensed) ** 2) * batch.weight)[:, 1:].sum((1, 2))

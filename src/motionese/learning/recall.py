@@ -39,10 +39,10 @@ def recalled(fit: Fit, batch: Batch) -> Recalled:
     nearest = np.stack(
         [
             np.argsort(np.asarray(_losses(fit.network, Batch(*one), learned)), kind="stable")
-            for one in zip(batch.sensed, batch.observed, strict=True)
+            for one in zip(*batch, strict=True)
         ]
     )[:, :RECALLED]
-    counted = np.asarray(batch.observed)[:, 1:].sum(1)
+    counted = np.asarray(batch.weight)[:, 1:].sum(1)
     expected = counted @ _squared_errors(fit).T * SLACK**2
     return Recalled(
         starts=fit.initial_states[nearest],
