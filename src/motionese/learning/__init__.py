@@ -4,6 +4,7 @@ from motionese.learning.batch import Batch
 from motionese.learning.fit import Fit
 from motionese.learning.found import Found
 from motionese.learning.generate import activity, generate
+from motionese.learning.memory import Memory
 from motionese.learning.motions import Motions
 from motionese.learning.placed import placed
 from motionese.learning.progress import Progress
@@ -19,6 +20,7 @@ __all__ = [
     "Ending",
     "Fit",
     "Found",
+    "Memory",
     "Motions",
     "Progress",
     "Recognition",

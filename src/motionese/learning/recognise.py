@@ -20,18 +20,21 @@ from motionese.learning.carried import carried
 from motionese.learning.descent import descend
 from motionese.learning.fit import Fit
 from motionese.learning.found import Found, judged
+from motionese.learning.memory import Memory, Recall
 from motionese.learning.motions import Motions
 from motionese.learning.optimisers import recognition_rule
-from motionese.learning.recall import Recalled, recalled
 from motionese.learning.settings import Recognition
 from motionese.network import MTRNN
 
 SAME_RATE = 1e-3
 """Share by which rates may differ and count as the same."""
 
+Model = MTRNN | Fit | tuple[MTRNN, Memory]
+"""What training left, or a network with what it has learned, or a trained network alone."""
+
 
 def recognise(
-    model: MTRNN | Fit,
+    model: Model,
     motion: Motions | Float[ndarray, "T D"],
     *,
     observed: list[str] | None = None,
@@ -43,8 +46,8 @@ def recognise(
     """Find the initial states from which the network generates a motion.
 
     Args:
-        model: What training left; or a trained network alone, which has no memory of its motions
-            to start from, and can recognise few hidden channels.
+        model: What training left, or a network and its memory; or a trained network alone, which
+            has no memory of its motions to start from, and can recognise few hidden channels.
         motion: One motion, or its values [T, D] in the channels' units; what is not looked at may
             be anything, NaN included.
         observed: Names of the channels that are looked at; all if left out.
@@ -53,14 +56,13 @@ def recognise(
         settings: Iterations, starts, rate, bounds.
         key: JAX random key of the random starts; `jax.random.key(0)` where left out.
     """
-    network = model.network if isinstance(model, Fit) else model
+    network, _, rate = _parts(model)
     if not isinstance(motion, Motions):
         if network.channels is None:
             raise ChannelError("the network carries no channels; give the motion as Motions")
         values = np.array(motion, dtype=np.float64, ndmin=1)
         seen = _looked_at(len(values), network.channels, observed, rows)
-        rate = model.rate_hz if isinstance(model, Fit) else 1.0
-        motion = Motions.from_arrays([values], network.channels, rate, observed=[seen])
+        motion = Motions.from_arrays([values], network.channels, rate or 1.0, observed=[seen])
     if len(motion) != 1:
         raise SettingError(f"recognise takes one motion, got {len(motion)}; see recognise_all")
     seen = motion.observed[0] & _looked_at(motion.lengths[0], motion.channels, observed, rows)
@@ -79,7 +81,7 @@ def _looked_at(
 
 
 def recognise_all(
-    model: MTRNN | Fit,
+    model: Model,
     motions: Motions,
     *,
     starts: Float[ndarray, "S M N"] | None = None,
@@ -90,7 +92,7 @@ def recognise_all(
     """Recognise many motions in one batch, each from its observed values alone.
 
     Args:
-        model: What training left, or a trained network alone; see `recognise`.
+        model: What training left, a network and its memory, or a network alone; see `recognise`.
         motions: The motions; their masks say what is looked at.
         starts: Initial states to start from, so many for every motion.
         settings: Iterations, starts, rate, bounds.
@@ -103,12 +105,12 @@ def recognise_all(
             or another rate than the fit's.
     """
     settings = settings or Recognition()
-    if isinstance(model, Fit) and not isclose(motions.rate_hz, model.rate_hz, rel_tol=SAME_RATE):
+    network, memory, rate = _parts(model)
+    if rate is not None and not isclose(motions.rate_hz, rate, rel_tol=SAME_RATE):
         raise SettingError(
-            f"the motions have {motions.rate_hz:g} rows a second, "
-            f"the model was trained at {model.rate_hz:g}"
+            f"the motions have {motions.rate_hz:g} rows a second, the model was trained at {rate:g}"
         )
-    network, motions = carried(model.network if isinstance(model, Fit) else model, motions)
+    network, motions = carried(network, motions)
     if starts is not None and starts.shape[::2] != (len(motions), network.size):
         raise SettingError(
             f"starts must have shape [{len(motions)} motions, any number, {network.size} units], "
@@ -116,10 +118,10 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    memory = recalled(model, batch) if isinstance(model, Fit) else None
-    if starts is None and memory is None and not settings.starts:
+    recall = memory.nearest(network, batch) if memory is not None and memory.names else None
+    if starts is None and recall is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
-    free = _starts(network, count, starts, memory, settings, key)
+    free = _starts(network, count, starts, recall, settings, key)
     states, losses, chosen = descend(
         network,
         batch,
@@ -128,7 +130,7 @@ def recognise_all(
         recognition_rule(settings.optimiser, settings.rate, settings.momentum, settings.iterations),
         jnp.asarray(settings.penalty),
         settings.iterations,
-        None if memory is None else _enough(memory, free.shape[1]),
+        _enough(memory, recall, free.shape[1]),
     )
     return judged(
         network,
@@ -141,23 +143,38 @@ def recognise_all(
     )
 
 
-def _enough(memory: Recalled, starts: int) -> Float[Array, "S M"]:
-    """Return for every start, the recalled ones first, the loss that is small enough."""
-    others = np.repeat(memory.typical[:, None], starts - memory.enough.shape[1], axis=1)
-    return jnp.asarray(np.hstack([memory.enough, others]), float)
+def _parts(model: Model) -> tuple[MTRNN, Memory | None, float | None]:
+    """Return a model's network, and its memory and rate where they are known."""
+    if isinstance(model, Fit):
+        return model.network, model.memory, model.rate_hz
+    network, memory = model if isinstance(model, tuple) else (model, None)
+    return network, memory, None
+
+
+def _enough(
+    memory: Memory | None, recall: Recall | None, starts: int
+) -> Float[Array, "S M"] | None:
+    """Return for every start, the recalled ones first, the loss that is small enough.
+
+    None where nobody knows how well motions were learned.
+    """
+    if memory is None or recall is None or np.isnan(memory.errors).all():
+        return None
+    others = np.repeat(recall.typical[:, None], starts - recall.enough.shape[1], axis=1)
+    return jnp.asarray(np.hstack([recall.enough, others]), float)
 
 
 def _starts(
     network: MTRNN,
     count: int,
     given: Float[ndarray, "G H N"] | None,
-    memory: Recalled | None,
+    recall: Recall | None,
     settings: Recognition,
     key: Array | None,
 ) -> Float[Array, "S M N"]:
     dtype = network.weights.dtype
     key = jax.random.key(0) if key is None else key
-    parts = [] if memory is None else [jnp.asarray(memory.starts, dtype)]
+    parts = [] if recall is None else [jnp.asarray(recall.starts, dtype)]
     if given is not None:
         idle = count - len(given)
         parts.append(jnp.pad(jnp.asarray(given, dtype), ((0, idle), (0, 0), (0, 0))))

@@ -1,4 +1,4 @@
-"""Recall: what was learned is recognised from a part of its channels, the nearest first."""
+"""Memory: what was learned is recognised from a part of its channels, the nearest first."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ import pytest
 from motionese import MTRNN, Level, Motions, Recognition, Training, recognise, train
 from motionese.errors import SettingError
 from motionese.learning import Ending, recognise_all
-from motionese.learning.recall import RECALLED, SLACK, recalled
+from motionese.learning.memory import RECALLED, SLACK, Memory
 
 
 def far(found, values, channels):
@@ -44,13 +44,13 @@ def test_what_is_given_and_drawn_counts_after_what_is_recalled(fit, motions):
     settings = Recognition(iterations=200, starts=2)
     unlike = Motions.from_arrays([motions.values[1] * (1, -1, 1)], motions.channels, 10.0)
 
-    memory = recalled(fit, unlike.batch())
+    recall = fit.memory.nearest(fit.network, unlike.batch())
     starts = [
         recognise(fit, unlike, settings=settings, starts=given).start,
         recognise(fit.network, unlike, settings=settings, starts=given).start,
     ]
 
-    assert memory.starts.shape == (1, 3, 17)
+    assert recall.starts.shape == (1, 3, 17)
     assert starts[0] < 6
     assert starts[1] < 3
 
@@ -59,16 +59,16 @@ def test_the_nearest_learned_motions_come_first(fit, motions):
     shown = motions.showing(["x", "z"])
     as_it_is = Recognition(iterations=1, starts=0, optimiser="descent", rate=0.0)
 
-    memory = recalled(fit, shown.batch(40, 4))
+    recall = fit.memory.nearest(fit.network, shown.batch(40, 4))
 
-    assert memory.starts.shape == (4, 3, 17)
+    assert recall.starts.shape == (4, 3, 17)
     for i, motion in enumerate(shown):
         losses = [
             recognise(fit.network, motion, starts=state[None], settings=as_it_is).loss
             for state in fit.initial_states
         ]
-        np.testing.assert_array_equal(memory.starts[i], fit.initial_states[np.argsort(losses)])
-        np.testing.assert_array_equal(memory.starts[i, 0], fit.initial_states[i])
+        np.testing.assert_array_equal(recall.starts[i], fit.initial_states[np.argsort(losses)])
+        np.testing.assert_array_equal(recall.starts[i, 0], fit.initial_states[i])
 
 
 def test_enough_is_as_near_as_each_was_learned(fit, motions):
@@ -76,15 +76,15 @@ def test_enough_is_as_near_as_each_was_learned(fit, motions):
     seen[0][1:11, 0], seen[0][1:6, 2] = True, True
     batch = replace(motions, observed=tuple(seen)).batch()
 
-    memory = recalled(fit, batch)
+    recall = fit.memory.nearest(fit.network, batch)
 
     # In the unit interval, where a range is 0.8: 10 rows of x and 5 of z, and not row 0.
     unit = 0.8 * fit.closed_loop_error / motions.channels.spans
     each = SLACK**2 * (10 * unit[:, 0] ** 2 + 5 * unit[:, 2] ** 2)
-    order = [int(np.flatnonzero((fit.initial_states == s).all(1))[0]) for s in memory.starts[0]]
-    np.testing.assert_allclose(memory.enough[0], each[order], rtol=1e-5)
-    assert memory.typical[0] == pytest.approx(np.median(each), rel=1e-5)
-    np.testing.assert_array_equal(memory.enough[1:], 0.0)
+    order = [int(np.flatnonzero((fit.initial_states == s).all(1))[0]) for s in recall.starts[0]]
+    np.testing.assert_allclose(recall.enough[0], each[order], rtol=1e-5)
+    assert recall.typical[0] == pytest.approx(np.median(each), rel=1e-5)
+    np.testing.assert_array_equal(recall.enough[1:], 0.0)
 
 
 def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
@@ -93,14 +93,15 @@ def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
     batch = motions.showing(["x"]).batch()
     squared = (0.8 * unknown[:, 0] / 4.0) ** 2
 
-    memory = recalled(replace(fit, closed_loop_error=unknown), batch)
+    memory = replace(fit.memory, errors=unknown)
+    recall = memory.nearest(fit.network, batch)
 
     squared[1] = np.median(squared[[0, 2]])
     for i, rows in enumerate((23, 17, 29)):
         np.testing.assert_allclose(
-            sorted(memory.enough[i]), np.sort(rows * SLACK**2 * squared), rtol=1e-5
+            sorted(recall.enough[i]), np.sort(rows * SLACK**2 * squared), rtol=1e-5
         )
-    unseen = recalled(replace(fit, closed_loop_error=unknown), motions.showing(["y"]).batch())
+    unseen = memory.nearest(fit.network, motions.showing(["y"]).batch())
     np.testing.assert_array_equal(unseen.enough, 0.0)
 
 
@@ -110,7 +111,7 @@ def test_no_more_than_some_are_recalled_of_many():
     net = MTRNN([Level(1, 2.0), Level(2, 5.0)], key=jax.random.key(0))
     fit = train(net, many, settings=Training(epochs=1))
 
-    assert recalled(fit, many.batch()).starts.shape == (6, RECALLED, 3)
+    assert fit.memory.nearest(fit.network, many.batch()).starts.shape == (6, RECALLED, 3)
 
 
 def test_what_is_recalled_does_not_depend_on_company_or_padding(fit, motions):
@@ -122,6 +123,37 @@ def test_what_is_recalled_does_not_depend_on_company_or_padding(fit, motions):
         for each in (one, other):
             assert each.start == alone.start
             np.testing.assert_allclose(each.path, alone.path, atol=1e-4)
+
+
+def test_a_network_and_its_memory_recognise_as_their_fit_does(fit, motions):
+    shown = motions.showing(["x"])
+
+    for one, other in zip(
+        recognise_all(fit, shown), recognise_all((fit.network, fit.memory), shown), strict=True
+    ):
+        np.testing.assert_array_equal(one.initial_state, other.initial_state)
+        assert (one.start, one.loss) == (other.start, other.loss)
+
+
+def test_a_memory_of_unknown_errors_is_searched_to_the_end(fit, motions):
+    memory = replace(fit.memory, errors=np.full((3, 3), np.nan))
+    settings = Recognition(iterations=60, starts=0)
+    starts = fit.memory.nearest(fit.network, motions[1].batch()).starts
+
+    found = recognise((fit.network, memory), motions[1], settings=settings)
+
+    expected = recognise(fit.network, motions[1], settings=settings, starts=starts[0])
+    np.testing.assert_array_equal(found.initial_state, expected.initial_state)
+    assert found.start == expected.start
+
+
+def test_an_empty_memory_recalls_nothing(fit, motions):
+    empty = Memory((), np.zeros((0, 17)), np.zeros((0, 3)))
+
+    found = recognise((fit.network, empty), motions[0])
+
+    expected = recognise(fit.network, motions[0])
+    np.testing.assert_array_equal(found.initial_state, expected.initial_state)
 
 
 def test_motions_of_another_rate_are_refused(fit, motions):
