@@ -36,7 +36,7 @@ benchmarks: $(TOOLS)
 
 # What the page of `motionese teach` takes from others, built anew (needs node; nothing else does).
 page-vendor:
-	@src/motionese/interfaces/teach/page/vendor/build.sh
+	@src/motionese/interfaces/page/web/vendor/build.sh
 
 $(READY): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

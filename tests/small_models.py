@@ -1,5 +1,7 @@
 """A network of three levels over three channels in a file, for the runtime to read."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -15,6 +17,8 @@ CHANNELS = Channels(
     ]
 )
 SIZES = (3, 7, 2)
+INITIAL_IO = ("sensed", "zero")
+"""What the IO units of a network may begin at."""
 NAMES = ("reach", "wave")
 
 
@@ -31,6 +35,16 @@ def written(path, *, initial_io="sensed", facts=None):
     told = {"names": list(NAMES), "status": "stopped", "sentence": "", **(facts or {})}
     write_network(path, network, {"initial_states": states, "losses": np.zeros(3)}, told)
     return network, states
+
+
+def nothing_learned(fit):
+    """A fit as it was before any motion was learned."""
+    none = {
+        name: np.zeros((0, fit.network.io_size))
+        for name in ("teacher_forced_error", "closed_loop_error", "validation_error")
+    }
+    states = np.zeros((0, fit.network.size), np.float32)
+    return replace(fit, names=(), lengths=(), initial_states=states, validation_names=(), **none)
 
 
 class Clock:

@@ -29,7 +29,7 @@ def test_snippets_run(page, tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_the_tutorial_s_snippets_and_commands_run_in_order(tmp_path, monkeypatch):
-    from motionese.interfaces.command_line import app, spread
+    from motionese.interfaces.commands.command_line import app, spread
 
     monkeypatch.chdir(tmp_path)
     names = {}
@@ -52,7 +52,7 @@ def test_links_lead_somewhere(page):
 
 @pytest.mark.parametrize("page", PAGES, ids=called)
 def test_commands_and_their_options_exist(page):
-    from motionese.interfaces.command_line import app
+    from motionese.interfaces.commands.command_line import app
 
     for line in re.findall(r"^ {4}(?:\.venv/bin/)?motionese (.*)$", page.read_text(), re.MULTILINE):
         command, *arguments = shlex.split(line, comments=True)
@@ -98,7 +98,7 @@ def test_the_site_is_built_without_warnings(site):
     from typer.main import get_command
 
     import motionese
-    from motionese.interfaces.command_line import app
+    from motionese.interfaces.commands.command_line import app
 
     library = (site / "api" / "index.html").read_text()
     assert all(f"mo.{name}<" in library for name in motionese.__all__)

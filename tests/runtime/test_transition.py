@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from small_models import CHANNELS, Clock
+from small_models import CHANNELS, INITIAL_IO, Clock
 
 from motionese import generate_sequence
 from motionese.runtime import ControlLoop, Limits, Part, Player
@@ -32,6 +32,7 @@ def apart(path, library):
     return np.abs((path - library) / WIDTHS).max()
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 @pytest.mark.parametrize(("first", "steps"), [*product(("reach", "wave"), (21, 40, 100))])
 def test_a_sequence_is_the_library_s(model, saved, first, steps):
     _, network, states = saved
@@ -47,6 +48,7 @@ def test_a_sequence_is_the_library_s(model, saved, first, steps):
     assert apart(at_once, library[1:]) > 0.05
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 @pytest.mark.parametrize("scale", [1.0, 1.5])
 def test_initial_states_follow_one_another_as_named_motions_do(model, saved, scale):
     _, network, states = saved
@@ -124,6 +126,7 @@ def test_rows_of_a_transition(here, speed, rows, expected):
         assert turned.rows_from(np.array(here)) == expected
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 @pytest.mark.parametrize("here", [[1.9, 40.0, 0.05], [-1.0, -60.0, 0.02]])
 def test_the_first_part_sets_out_from_standing_still_as_in_the_library(model, saved, here):
     _, network, states = saved

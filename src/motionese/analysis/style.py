@@ -1,18 +1,21 @@
 """How all figures look, and how they become SVG and PNG with the same bytes every time.
 
-A condition has the same colour, line and marker in every figure: blue for teaching in phases,
-orange for sequences from the start; dark and solid for a growing network, light and dashed for a
-whole one (Okabe & Ito's palette, distinguishable without colour vision).
+A condition has the same colour, line and marker in every figure (see `looks_of`): blue for teaching
+in phases, orange for sequences from the start; dark and solid for a growing network, light and
+dashed for a whole one (after Okabe & Ito's palette, distinguishable without colour vision).
 """
 
 import io
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+from motionese.experiment import conditions_of
 
 INK, FAINT, PAPER = "#1b1f24", "#808890", "#ffffff"
 ASTRAY = "#cc79a7"
@@ -39,20 +42,38 @@ class Look:
         }
 
 
-LOOKS = {
-    "TD/MD": Look("#0072b2", "-", "o"),
-    "TD/MND": Look("#56b4e9", "--", "s"),
-    "TND/MD": Look("#d55e00", "-", "^"),
-    "TND/MND": Look("#e69f00", "--", "D"),
-}
-"""By the condition's name."""
+HUES = (("#0072b2", "#56b4e9"), ("#d55e00", "#e69f00"), ("#007a5a", "#4dc3a1"))
+"""Dark and light, by the choice of the first factor."""
+GREYS = ("#1b1f24", "#808890")
+LINES = ("-", "--", ":", "-.")
+MARKERS = "os^DvPX*"
+
+
+def looks_of(factors: Mapping[str, tuple[str, ...]]) -> dict[str, Look]:
+    """Return the look of every condition of a study, by its name.
+
+    The first factor's choice sets the hue, the others' the shade and the line, the first of them
+    dark and solid: the same condition looks the same in every figure, whichever others were run.
+    """
+    looks = {}
+    first = next(iter(factors.values()))
+    for place, condition in enumerate(conditions_of(factors)):
+        hue = first.index(condition.choices[0])
+        within = place % (len(conditions_of(factors)) // len(first))
+        shades = HUES[hue] if hue < len(HUES) else GREYS
+        looks[condition.name] = Look(
+            shades[min(within, 1)], LINES[within % len(LINES)], MARKERS[place % len(MARKERS)]
+        )
+    return looks
+
 
 ROLES = {
     "ink": INK,
     "faint": FAINT,
     "paper": PAPER,
-    **{name.lower().replace("/", "-"): look.colour for name, look in LOOKS.items()},
-}
+    **{f"hue-{i}-{kind}": colour for i, hue in enumerate(HUES)
+       for kind, colour in zip(("dark", "light"), hue, strict=True)},
+}  # fmt: skip
 """Names by which a page may give these colours others, as on dark ground."""
 
 SETTINGS = {

@@ -12,7 +12,7 @@ from motionese.learning.recognise import recognise, recognise_all
 from motionese.learning.sequence import generate_sequence
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Status
-from motionese.learning.storage import load, save
+from motionese.learning.storage import load, read_fit, save, write_fit
 from motionese.learning.train import train
 
 __all__ = [
@@ -31,8 +31,10 @@ __all__ = [
     "generate_sequence",
     "load",
     "placed",
+    "read_fit",
     "recognise",
     "recognise_all",
     "save",
     "train",
+    "write_fit",
 ]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
-from motionese.errors import StorageError
+from motionese.errors import CHECKPOINT_BEFORE, NO_MOTION, StorageError
 from motionese.runtime.model import RuntimeModel
 from motionese.runtime.safetensors_file import parse
 
@@ -54,9 +54,13 @@ def _model(path: Path, structure: dict[str, Any], tensors: dict[str, ndarray]) -
     facts = dict(structure["facts"])
     if len(sizes) < 2 or min(sizes) < 1:
         raise StorageError(f"{path}: no valid network: its levels have {sizes} units")
+    if "experiences" in facts and "names" not in facts:
+        raise StorageError(f"{path}: {CHECKPOINT_BEFORE}")
     if "initial_states" not in tensors or "names" not in facts:
         raise StorageError(f"{path}: a network without a fit; initial states missing")
     names = [str(name) for name in facts["names"]]
+    if not names:
+        raise StorageError(f"{path}: {NO_MOTION}")
     units = sum(sizes)
     shapes = {
         "weights": (units, units),

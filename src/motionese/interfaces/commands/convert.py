@@ -1,0 +1,57 @@
+"""Recordings in, one file of motions out; a model's step as ONNX, motions in others' formats."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from motionese.errors import MotioneseError, SettingError
+from motionese.interfaces.commands.motion_text import description
+from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
+from motionese.interfaces.onnx_export import TOLERANCE, export_onnx
+from motionese.learning import Motions, load
+
+
+def import_motions(
+    console: Console,
+    source: Path,
+    out: Path,
+    *,
+    columns: Mapping[str, str | None],
+    choice: Mapping[str, Any],
+) -> None:
+    """Read and prepare recordings, write them, and tell what was written.
+
+    Args:
+        console: Where it is told.
+        source: The file or folder to read.
+        out: The file to write, by its suffix.
+        columns: Format, episode and time column, as `Motions.read` takes them.
+        choice: What else `Motions.read` takes.
+    """
+    motions = Motions.read(source, **columns, **choice)
+    motions.write(out)
+    console.print(f"{out}: {description(motions)}")
+
+
+def export_model(console: Console, model: Path, out: Path) -> None:
+    """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
+    check_output("--onnx", out, (".onnx",))
+    difference = export_onnx(out, load(model))
+    console.print(
+        f"{out}: one step (x, u → y, u_next); "
+        f"differs from the network by at most {difference:.1e}, allowed {TOLERANCE:g}"
+    )
+
+
+def export_motions(console: Console, source: Path, out: Path, to: str | None) -> None:
+    """Write motions in another format, and tell what was written."""
+    if source.suffix == MODEL_SUFFIX:
+        raise SettingError(f"{source}: a model, not recordings; write its step with --onnx FILE")
+    try:
+        motions = Motions.read(source)
+    except MotioneseError as error:
+        raise type(error)(f"{error} (with motionese import, whose .npz can be exported)") from error
+    motions.write(out, to)
+    console.print(f"{out}: {description(motions)}")

@@ -1,0 +1,63 @@
+"""The results in a few lines, from the tables."""
+
+import io
+
+import pandas as pd
+import pytest
+from rich.console import Console
+
+from motionese.interfaces.commands.results import summary
+
+
+@pytest.fixture
+def folder(tmp_path):
+    rows = [
+        {
+            "condition": condition,
+            "seed": seed,
+            "loop": loop,
+            "imitation_error_cm": error + 10 * seed / loop + spread,
+            "buttons_due": 2,
+            "buttons_pressed": 1,
+        }
+        for condition, error in (("TD/MD", 1.0), ("TND/MND", 2.0))
+        for seed in (0, 1, 5)
+        for loop in (1, 2, 4)
+        for spread in (-0.5, 0.5)
+    ]
+    pd.DataFrame(rows).to_csv(tmp_path / "loops.csv")
+    new = [
+        {"condition": "TD/MD", "seed": seed, "trained": trained, "imitation_error_cm": error}
+        for seed in (0, 1, 5)
+        for trained, error in ((True, 90.0), (False, 3.0 + seed))
+    ]
+    pd.DataFrame(new).to_csv(tmp_path / "triples.csv")
+    return tmp_path
+
+
+def lines(table):
+    out = io.StringIO()
+    Console(file=out, width=120).print(table)
+    return [
+        [cell.strip() for cell in line.split("│")[1:-1]] for line in out.getvalue().splitlines()
+    ]
+
+
+def test_medians_over_seeds_of_means_over_motions(folder):
+    assert lines(summary(folder, change_after=2))[4:-1] == [
+        ["TD/MD", "3", "11.0", "6.0", "3.5", "4.0", "6 of 12"],
+        ["TND/MND", "3", "12.0", "7.0", "4.5", "–", "6 of 12"],
+    ]
+
+
+@pytest.mark.parametrize("change_after", [0, 1, 4, 9])
+def test_no_loop_is_shown_twice(folder, change_after):
+    headers = [str(column.header) for column in summary(folder, change_after).columns]
+    assert headers[2:-2] == ["loop 1", "loop 4"]
+
+
+def test_without_new_motions_and_buttons_there_are_dashes(folder):
+    (folder / "triples.csv").unlink()
+    loops = pd.read_csv(folder / "loops.csv").assign(buttons_due=0, buttons_pressed=0)
+    loops.to_csv(folder / "loops.csv")
+    assert lines(summary(folder, change_after=2))[4][-2:] == ["–", "–"]
