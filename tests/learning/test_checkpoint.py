@@ -28,7 +28,7 @@ ARRAYS = (
 
 @pytest.fixture(scope="module")
 def small():
-    return MTRNN(LEVELS, key=jax.random.key(0))
+    return MTRNN.draw(LEVELS, key=jax.random.key(0))
 
 
 def same(one, other):
@@ -148,8 +148,8 @@ def test_what_diverged_is_never_gone_on_from(tmp_path, monkeypatch):
     monkeypatch.setattr(training, "CHECKPOINT_EVERY_S", 0.0)
     written = []
     monkeypatch.setattr(job.Course, "write", lambda *_: written.append(1))
-    net = MTRNN([Level(1, 2.0), Level(1, 1.0)], key=jax.random.key(0))
-    net = net.with_parameters(jnp.array([[0.0, 1.0], [0.0, 1e6]]), jnp.array([0.0, -5e5]))
+    net = MTRNN.draw([Level(1, 2.0), Level(1, 1.0)], key=jax.random.key(0))
+    net = replace(net, weights=jnp.array([[0.0, 1.0], [0.0, 1e6]]), bias=jnp.array([0.0, -5e5]))
     path = np.linspace(0.0, 1.0, 12)[:, None]
     motions = Motions.from_arrays([path], Channels([Channel("x", "", 0.0, 1.0)]), 10.0)
 
@@ -196,16 +196,19 @@ OTHERS = {
     "one more": ("motions", {"motions": lambda motions: motions}),
     "held out": ("motions", {"validation": lambda motions: motions[0]}),
     "none held out": ("motions", {"validation": lambda motions: None}),
-    "weights": ("networks", {"network": MTRNN(LEVELS, key=jax.random.key(1))}),
+    "weights": ("networks", {"network": MTRNN.draw(LEVELS, key=jax.random.key(1))}),
     "time constants": (
         "networks",
-        {"network": MTRNN([LEVELS[0], Level(5, 6.0), LEVELS[2]], key=jax.random.key(0))},
+        {"network": MTRNN.draw([LEVELS[0], Level(5, 6.0), LEVELS[2]], key=jax.random.key(0))},
     ),
     "initial_io": (
         "networks",
-        {"network": MTRNN(LEVELS, key=jax.random.key(0), initial_io="zero")},
+        {"network": MTRNN.draw(LEVELS, key=jax.random.key(0), initial_io="zero")},
     ),
-    "bias": ("networks", {"network": MTRNN(LEVELS, key=jax.random.key(0), learned_bias=False)}),
+    "bias": (
+        "networks",
+        {"network": MTRNN.draw(LEVELS, key=jax.random.key(0), learned_bias=False)},
+    ),
     "begin": ("networks", {"initial_states": np.ones((2, 10))}),
 }
 

@@ -1,5 +1,7 @@
 """Training and recognition by plain descent are what equations (3)–(5) say, worked out by hand."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -30,13 +32,13 @@ LENGTHS = (6, 4, 7)
 def drawn(levels, **settings):
     """A network with a bias, and the same as arrays by name."""
     sizes = SIZES[levels]
-    net = MTRNN(
+    net = MTRNN.draw(
         [Level(size, tau) for size, tau in zip(sizes, (2.0, 5.0, 30.0, 70.0), strict=False)],
         key=jax.random.key(levels),
         channels=CHANNELS,
         **settings,
     )
-    net = net.with_parameters(net.weights, jnp.linspace(-0.5, 0.5, net.size))
+    net = replace(net, bias=jnp.linspace(-0.5, 0.5, net.size))
     arrays = {name: np.asarray(getattr(net, name)) for name in ("weights", "bias", "tau")}
     return net, {**arrays, "sizes": sizes, **settings}
 

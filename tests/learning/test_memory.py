@@ -108,7 +108,7 @@ def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
 def test_no_more_than_some_are_recalled_of_many():
     rng = np.random.default_rng(0)
     many = Motions.from_arrays([*rng.uniform(size=(6, 5, 1))], ["x"], 10.0)
-    net = MTRNN([Level(1, 2.0), Level(2, 5.0)], key=jax.random.key(0))
+    net = MTRNN.draw([Level(1, 2.0), Level(2, 5.0)], key=jax.random.key(0))
     fit = train(net, many, settings=Training(epochs=1))
 
     assert fit.memory.nearest(fit.network, many.batch()).starts.shape == (6, RECALLED, 3)

@@ -1,5 +1,7 @@
 """Motions: ragged, masked, and padded by nothing that has a meaning."""
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
@@ -125,7 +127,7 @@ def test_padding_has_no_meaning(network, motions):
     @jax.jit
     def graded(batch):
         def loss(weights, bias, free):
-            net = network.with_parameters(weights, bias)
+            net = replace(network, weights=weights, bias=bias)
             return squared_errors(predictions(net, batch, free, 0.3), batch).sum()
 
         return jax.value_and_grad(loss, (0, 1, 2))(network.weights, network.bias, free)

@@ -1,5 +1,7 @@
 """Recognition: from any part of a motion to its initial states, with a verdict."""
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
@@ -168,7 +170,7 @@ def test_verdicts(fit, motions):
 
 
 def test_a_network_that_computes_nothing_finite_is_a_verdict(fit, motions):
-    broken = fit.network.with_parameters(fit.network.weights * np.nan, fit.network.bias)
+    broken = replace(fit.network, weights=fit.network.weights * np.nan, bias=fit.network.bias)
 
     found = recognise(broken, motions[0], settings=TOLD)
 

@@ -1,5 +1,7 @@
 """Growth: what was learned is kept, bit by bit where the new level has no influence."""
 
+from dataclasses import replace
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -14,7 +16,7 @@ NEW = Level(2, tau=70.0)
 
 def network(*sizes, key=0):
     levels = [Level(size, 1.0 + 3.0 * place) for place, size in enumerate(sizes)]
-    return MTRNN(levels, key=jax.random.key(key))
+    return MTRNN.draw(levels, key=jax.random.key(key))
 
 
 def run(net, rows=12, batch=3):
@@ -58,7 +60,7 @@ def test_without_influence_repeated_growth_still_computes_the_same_bits():
 @pytest.mark.parametrize("influence", [0.0, 0.25, 1.0])
 def test_old_weights_bias_and_time_constants_are_kept(influence):
     old = network(3, 8)
-    old = old.with_parameters(old.weights, jnp.linspace(-1.0, 1.0, old.size))
+    old = replace(old, bias=jnp.linspace(-1.0, 1.0, old.size))
 
     grown = grow(old, NEW, key=jax.random.key(1), influence=influence)
 

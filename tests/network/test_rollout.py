@@ -30,7 +30,7 @@ def test_equals_the_equations_by_hand(float64, shape, data):
 
 
 def test_without_noise_equals_noise_of_zero(float64):
-    network = MTRNN([Level(2, 2.0), Level(3, 5.0)], key=jax.random.key(3))
+    network = MTRNN.draw([Level(2, 2.0), Level(3, 5.0)], key=jax.random.key(3))
     arguments = jnp.ones((1, 5)), jnp.full((1, 6, 2), 0.4), jnp.full((1, 6, 2), 0.5)
     compiled = eqx.filter_jit(rollout)
 
@@ -40,7 +40,7 @@ def test_without_noise_equals_noise_of_zero(float64):
 
 
 def test_what_is_never_taken_changes_no_bit():
-    network = MTRNN([Level(2, 2.0), Level(3, 5.0), Level(1, 70.0)], key=jax.random.key(3))
+    network = MTRNN.draw([Level(2, 2.0), Level(3, 5.0), Level(1, 70.0)], key=jax.random.key(3))
     initial = jax.random.normal(jax.random.key(4), (2, 6))
     share = jnp.array([0.0, 1.0])[None, None].repeat(2, 0).repeat(5, 1)
     sensed = jax.random.uniform(jax.random.key(5), (2, 5, 2))
@@ -55,7 +55,7 @@ def test_what_is_never_taken_changes_no_bit():
 
 @pytest.mark.parametrize("tau", [1.0, 70.0])
 def test_one_slow_unit_follows_its_time_constant(float64, tau):
-    network = MTRNN([Level(1, 2.0), Level(1, tau)], key=jax.random.key(0), gain=0.0)
+    network = MTRNN.draw([Level(1, 2.0), Level(1, tau)], key=jax.random.key(0), gain=0.0)
 
     still = jnp.zeros((1, 41, 1))
     u = eqx.filter_jit(rollout)(network, jnp.ones((1, 2)), still, still)

@@ -82,7 +82,7 @@ def test_a_trained_fit_is_read(tmp_path):
     t = np.linspace(0.0, 3.0, 20)[:, None]
     motions = Motions.from_arrays([np.hstack([np.sin(t), t])], ["x", "y"], 10.0, names=["a"])
     fit = train(
-        MTRNN([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0)),
+        MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0)),
         motions,
         settings=Training(epochs=1),
     )

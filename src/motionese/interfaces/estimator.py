@@ -92,7 +92,7 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
             values, [str(n) for n in names], self.rate_hz, observed=[~np.isnan(v) for v in values]
         )
         levels = [Level(len(motions.channels), self.io_tau), *read_levels(self.levels)]
-        network = MTRNN(levels, key=self._key())
+        network = MTRNN.draw(levels, key=self._key())
         self.fit_: Fit = train(
             network, motions, epochs=self.epochs, settings=self.training, key=self._key()
         )

@@ -1,5 +1,7 @@
 """Channels that a network and motions share: whose scaling counts when both have their own."""
 
+from dataclasses import replace
+
 from motionese.errors import SettingError
 from motionese.learning.motions import Motions
 from motionese.network import MTRNN
@@ -26,5 +28,5 @@ def carried(network: MTRNN, motions: Motions) -> tuple[MTRNN, Motions]:
             f"the motions {len(motions.channels)} channels"
         )
     if network.channels is None:
-        return network.carrying(motions.channels), motions
+        return replace(network, channels=motions.channels), motions
     return network, motions.scaled_by(network.channels)

@@ -1,5 +1,7 @@
 """Epochs of training in one compiled call: gradients of equation (3), updates (4) and (5)."""
 
+from dataclasses import replace
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -21,7 +23,7 @@ class State(eqx.Module):
 
     def trained(self, network: MTRNN) -> MTRNN:
         """Return the network with these weights and bias."""
-        return network.with_parameters(self.parameters["weights"], self.parameters["bias"])
+        return replace(network, weights=self.parameters["weights"], bias=self.parameters["bias"])
 
     @property
     def finite(self) -> bool:
@@ -58,7 +60,7 @@ def run_epochs(
     """Run some epochs; return the state after them and the loss before each one's update."""
 
     def loss(parameters: dict[str, Array], disturbance: Array | None) -> Array:
-        current = network.with_parameters(parameters["weights"], parameters["bias"])
+        current = replace(network, weights=parameters["weights"], bias=parameters["bias"])
         predicted = predictions(current, batch, parameters["initial"], teacher_forcing, disturbance)
         return squared_errors(predicted, batch).sum()
 

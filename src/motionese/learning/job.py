@@ -56,8 +56,7 @@ class Job:
     def origin(self) -> dict[str, str]:
         """What a checkpoint must agree on, for its training to go on to the same bits."""
         net = self.network
-        levels = [(level.size, level.name) for level in net.levels]
-        kind = str((levels, net.learned_bias, net.initial_io))
+        kind = str((net.sizes, net.names, net.learned_bias, net.initial_io))
         # Motions before networks: another number of motions is another start of both.
         parts = {
             "settings": (self.settings.model_dump_json(), jax.random.key_data(self.key)),

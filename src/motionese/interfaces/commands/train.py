@@ -64,7 +64,7 @@ def train_model(
     motions = Motions.read(source, **columns, **choice)
     learned, unseen = split(motions, held_out, seed)
     drawn, noise = jax.random.split(jax.random.key(seed))
-    network = MTRNN([Level(len(motions.channels), io_tau), *context], key=drawn)
+    network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
     done = epochs_done(checkpoint) if resume else 0
     console.print(f"{source}: {description(motions)}")
     console.print(
