@@ -1,4 +1,4 @@
-"""Where values lie in the unit interval, in which the network's IO units live. Needs NumPy only.
+"""The unit interval, in which the network's outputs live, and values in it. Needs NumPy only.
 
 IO units are sigmoids, so a channel's range is mapped to 0.1–0.9 and whatever lies beyond it is
 clipped to 0.02–0.98, where a logit is still finite and a gradient still flows.
@@ -23,3 +23,18 @@ def from_unit(values: ndarray, low: ndarray, span: ndarray) -> ndarray:
     """Map the unit interval [*shape, D] back to the channels' units."""
     share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
     return np.asarray(low + span * share)
+
+
+def sigmoid(u: ndarray, out: ndarray | None = None) -> ndarray:
+    """Equation (2): y = 1 / (1 + e^−u), written into `out` if given; any potentials are allowed."""
+    y = np.empty_like(u) if out is None else out
+    np.negative(u, out=y)
+    with np.errstate(over="ignore"):  # of a potential far below 0, whose y is 0
+        np.exp(y, out=y)
+    np.add(y, 1, out=y)
+    return np.divide(1, y, out=y)
+
+
+def logit(y: ndarray) -> ndarray:
+    """Return the potential whose output is y, for 0 < y < 1."""
+    return np.asarray(np.log(y / (1 - y)))

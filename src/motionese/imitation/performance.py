@@ -173,9 +173,7 @@ class _Record:
         self.effects.append(self.body.effects())
         self.poses.append(self.body.pose())
 
-    def latest(
-        self, efference_copy: bool, predicted: Float[ndarray, " D"]
-    ) -> Float[ndarray, " D"]:
+    def latest(self, efference_copy: bool, predicted: Float[ndarray, " D"]) -> Float[ndarray, " D"]:
         """Return the last row in the unit interval; as predicted where nothing was observed."""
         row = self.sensed[-1].copy()
         if efference_copy:

@@ -8,6 +8,7 @@ from numpy import ndarray
 
 from motionese.errors import ChannelError
 from motionese.network import MTRNN
+from motionese.unit_interval import logit
 
 
 def placed(
@@ -40,5 +41,5 @@ def placed(
     states = np.array(initial_state)
     if network.initial_io == "sensed":
         unit = channels.to_unit(values)[columns]
-        states[..., columns] = np.log(unit) - np.log1p(-unit)
+        states[..., columns] = logit(unit)
     return states

@@ -1,9 +1,10 @@
-"""The MTRNN: levels and wiring, whole rollouts with their adjoint, growth, storage."""
+"""The MTRNN: levels and wiring, a step, whole rollouts with their adjoint, growth, storage."""
 
 from motionese.network.growth import grow
 from motionese.network.levels import Level
 from motionese.network.mtrnn import MTRNN, InitialIO
 from motionese.network.rollout import rollout
+from motionese.network.step import step
 from motionese.network.storage import read_network, write_network
 from motionese.network.wiring import Scale, wiring
 
@@ -15,6 +16,7 @@ __all__ = [
     "grow",
     "read_network",
     "rollout",
+    "step",
     "wiring",
     "write_network",
 ]

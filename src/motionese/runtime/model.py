@@ -9,9 +9,9 @@ from numpy import ndarray
 
 from motionese.errors import ControlError, unknown
 from motionese.runtime.readings import Reading, row_of
-from motionese.runtime.state import State, sigmoid
+from motionese.runtime.state import State
 from motionese.time_constants import LONGEST, SHORTEST, scaled_tau
-from motionese.unit_interval import from_unit, to_unit
+from motionese.unit_interval import from_unit, logit, sigmoid, to_unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +79,8 @@ class RuntimeModel:
         """
         known = np.flatnonzero(np.isfinite(here))
         if self.senses_first:
-            u[known] = np.log(here[known]) - np.log1p(-here[known])
-        y = sigmoid(u, np.empty_like(u))
+            u[known] = logit(here[known])
+        y = sigmoid(u)
         y[known] = here[known]
         return State(u, y)
 

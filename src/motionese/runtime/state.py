@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 from numpy import ndarray
 
 
@@ -21,12 +20,3 @@ class State:
     def copy(self) -> "State":
         """Return a state of its own, to try a motion out from here."""
         return State(self.u.copy(), self.y.copy())
-
-
-def sigmoid(u: ndarray, out: ndarray) -> ndarray:
-    """Equation (2), written into `out`; by tanh, which cannot overflow as exp(−u) does."""
-    np.multiply(u, 0.5, out=out)
-    np.tanh(out, out=out)
-    np.multiply(out, 0.5, out=out)
-    np.add(out, 0.5, out=out)
-    return out

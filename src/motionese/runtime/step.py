@@ -4,7 +4,8 @@ import numpy as np
 from numpy import ndarray
 
 from motionese.runtime.model import RuntimeModel
-from motionese.runtime.state import State, sigmoid
+from motionese.runtime.state import State
+from motionese.unit_interval import sigmoid
 
 
 class Stepper:
