@@ -59,6 +59,33 @@ def error_and_gradients(net, motion, free, teacher_forcing):
     return error, slope
 
 
+def gaussian_error(net, motion, free, teacher_forcing):
+    """Negative log likelihood of one motion, its variance read out of the context units.
+
+    Args as of `error_and_gradients`; `net` holds the read-out as variance_weights, variance_bias.
+    """
+    sensed, observed, weight = motion
+    sensed, io = np.where(observed, sensed, 0.0), len(sensed[0])
+    path = rollout(
+        *(net[name] for name in ("weights", "bias", "tau", "sizes")),
+        start(free, sensed, observed, net["initial_io"]),
+        sensed,
+        shares(observed, teacher_forcing),
+    )
+    error = 0.0
+    for t in range(1, len(sensed)):
+        context = [sigmoid(u) for u in path[t][io:]]
+        for channel in range(io):
+            read = sum(
+                r * y for r, y in zip(net["variance_weights"][channel], context, strict=True)
+            )
+            variance = math.exp(read + net["variance_bias"][channel]) + 1e-5
+            residual = sigmoid(path[t][channel]) - sensed[t][channel]
+            cost = residual**2 / (2 * variance) + math.log(math.sqrt(2 * math.pi * variance))
+            error += weight[t][channel] * cost if observed[t][channel] else 0.0
+    return error
+
+
 def rate_share(epoch, epochs, schedule):
     """The share of a rate that an epoch is given, counted from 0.
 

@@ -21,8 +21,8 @@ from motionese import (
     train,
 )
 from motionese.learning import activity, recognise_all
-from motionese.learning.descent import descend
 from motionese.learning.optimisers import recognition_rule
+from motionese.learning.recognition.descent import descend
 
 SIZES = {2: (2, 5), 3: (2, 4, 2), 4: (2, 3, 2, 1)}
 CHANNELS = Channels([Channel("x", "cm", -2.0, 2.0), Channel("y", "cm", 0.0, 5.0)])

@@ -8,7 +8,8 @@ import pytest
 
 from motionese import Channel, Channels, Motions, Training, train
 from motionese.errors import ChannelError, MotionError, SettingError
-from motionese.learning.objective import predictions, squared_errors
+from motionese.learning.error import ERRORS
+from motionese.learning.objective import predictions
 
 NAMES = ["pan", "tilt"]
 
@@ -128,7 +129,7 @@ def test_padding_has_no_meaning(network, motions):
     def graded(batch):
         def loss(weights, bias, free):
             net = replace(network, weights=weights, bias=bias)
-            return squared_errors(predictions(net, batch, free, 0.3), batch).sum()
+            return ERRORS["squared"](predictions(net, batch, free, 0.3), batch).sum()
 
         return jax.value_and_grad(loss, (0, 1, 2))(network.weights, network.bias, free)
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from motionese.errors import SettingError
-from motionese.network import MTRNN, Level, grow, rollout
+from motionese.network import MTRNN, Level, grow, predict, rollout
 
 NEW = Level(2, tau=70.0)
 
@@ -102,3 +102,16 @@ def test_weights_without_influence_have_a_gradient_and_leave_zero():
 def test_an_influence_below_zero_is_refused(influence):
     with pytest.raises(SettingError, match="influence of a new level must be ≥ 0, got"):
         grow(network(3, 8), NEW, key=jax.random.key(1), influence=float(influence))
+
+
+def test_a_variance_that_was_learned_is_kept():
+    old = MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0), variance=True)
+    old = replace(old, variance_weights=jax.random.normal(jax.random.key(1), (2, 4)))
+
+    grown = grow(old, NEW, key=jax.random.key(2), influence=0.0)
+
+    sensed, share = jnp.full((3, 8, 2), 0.4), jnp.full((3, 8, 2), 0.5)
+    before = predict(old, jnp.ones((3, 6)), sensed, share)
+    after = predict(grown, jnp.ones((3, 8)), sensed, share)
+    assert grown.variance_weights.shape == (2, 6)
+    np.testing.assert_allclose(after.variance, before.variance, rtol=1e-5)

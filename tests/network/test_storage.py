@@ -54,7 +54,9 @@ def refused(path, match):
     assert "\n" not in sentence
 
 
-@pytest.mark.parametrize("settings", [{}, {"learned_bias": False, "initial_io": "zero"}])
+@pytest.mark.parametrize(
+    "settings", [{}, {"learned_bias": False, "initial_io": "zero"}, {"variance": True}]
+)
 def test_the_same_bits_come_back(tmp_path, settings):
     written = network(**settings)
     write_network(tmp_path / "n", written, EXTRA, FACTS)

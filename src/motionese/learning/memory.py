@@ -13,8 +13,9 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy import ndarray
 
-from motionese.learning.batch import Batch
-from motionese.learning.objective import predictions, squared_errors
+from motionese.learning.error import error_of
+from motionese.learning.motions.batch import Batch
+from motionese.learning.objective import predictions
 from motionese.network import MTRNN
 
 RECALLED = 4
@@ -64,14 +65,14 @@ class Memory:
             count: How many are recalled of each, at most.
         """
         known = len(self.names)
-        padded = np.zeros((max(SMALLEST, 1 << (known - 1).bit_length()), network.size))
-        padded[:known] = self.initial_states
-        learned = jnp.asarray(padded, network.weights.dtype)
-        losses = [
-            np.asarray(_losses(network, Batch(*one), learned)) for one in zip(*batch, strict=True)
-        ]
-        nearest = np.argsort(np.stack(losses)[:, :known], kind="stable")[:, :count]
-        expected = np.asarray(batch.weight)[:, 1:].sum(1) @ self._squared(network).T * SLACK**2
+        idle = max(SMALLEST, 1 << (known - 1).bit_length()) - known
+        learned, squared = (
+            jnp.asarray(np.pad(values, ((0, idle), (0, 0))), network.weights.dtype)
+            for values in (self.initial_states, self._squared(network) * SLACK**2)
+        )
+        each = [_losses(network, Batch(*one), learned, squared) for one in zip(*batch, strict=True)]
+        losses, expected = (np.stack(part)[:, :known] for part in zip(*each, strict=True))
+        nearest = np.argsort(losses, kind="stable")[:, :count]
         return Recall(
             starts=self.initial_states[nearest],
             enough=np.take_along_axis(expected, nearest, axis=1),
@@ -89,6 +90,11 @@ class Memory:
 
 
 @eqx.filter_jit
-def _losses(network: MTRNN, one: Batch, states: Float[Array, "K N"]) -> Float[Array, " K"]:
+def _losses(
+    network: MTRNN, one: Batch, states: Float[Array, "K N"], squared: Float[Array, "K D"]
+) -> tuple[Float[Array, " K"], Float[Array, " K"]]:
+    """Return the errors of recalled motions, and those they would have as well as learned."""
     repeated = Batch(*(jnp.broadcast_to(part, (len(states), *part.shape)) for part in one))
-    return squared_errors(predictions(network, repeated, states, 0.0), repeated)
+    predicted, error = predictions(network, repeated, states, 0.0), error_of(network)
+    expected = error.weighted(squared[:, None], predicted.variance, repeated.weight)
+    return error(predicted, repeated), expected

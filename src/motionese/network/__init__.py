@@ -3,6 +3,7 @@
 from motionese.network.growth import grow
 from motionese.network.levels import Level
 from motionese.network.mtrnn import MTRNN, InitialIO
+from motionese.network.prediction import Prediction, predict, variance_of
 from motionese.network.rollout import rollout
 from motionese.network.step import step
 from motionese.network.storage import read_network, write_network
@@ -12,11 +13,14 @@ __all__ = [
     "MTRNN",
     "InitialIO",
     "Level",
+    "Prediction",
     "Scale",
     "grow",
+    "predict",
     "read_network",
     "rollout",
     "step",
+    "variance_of",
     "wiring",
     "write_network",
 ]

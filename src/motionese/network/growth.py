@@ -49,4 +49,7 @@ def grow(
         weights=drawn.at[:old, :old].set(network.weights),
         bias=jnp.pad(network.bias, (0, level.size)),
         tau=jnp.append(network.tau, jnp.asarray(opened.taus, network.tau.dtype)),
+        variance_weights=network.variance_weights
+        if network.variance_weights is None
+        else jnp.pad(network.variance_weights, ((0, 0), (0, level.size))),
     )

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -17,6 +17,21 @@ from motionese.network.wiring import Scale, draw_weights, wiring
 from motionese.time_constants import scaled_tau
 
 InitialIO = Literal["sensed", "zero"]
+FIRST_DEVIATION = 0.1
+"""Standard deviation, in the unit interval, that a network predicts before it is trained."""
+
+
+def shapes(sizes: tuple[int, ...], variance: bool) -> dict[str, tuple[int, ...]]:
+    """Return the shapes of a network's arrays, by the names of its fields."""
+    units, io = sum(sizes), sizes[0]
+    own: dict[str, tuple[int, ...]] = {"weights": (units, units), "bias": (units,), "tau": (units,)}
+    return own | (
+        {"variance_weights": (io, units - io), "variance_bias": (io,)} if variance else {}
+    )
+
+
+def _array(value: Any) -> Array | None:
+    return None if value is None else jnp.asarray(value)
 
 
 class MTRNN(eqx.Module):
@@ -34,6 +49,9 @@ class MTRNN(eqx.Module):
         learned_bias: Whether the bias is learned (the paper's equation (1) has none).
         initial_io: u_IO,0 is the logit of the first sensed value (`"sensed"`), or 0 (`"zero"`,
             the paper).
+        variance_weights: Read-out R of the predicted variance from the context units, see
+            `predict`; None where none is predicted. [D, N − D]
+        variance_bias: Its r; None where none is predicted. [D]
 
     Raises:
         SettingError: Fewer than two levels, names that are not unique, arrays or channels that do
@@ -48,6 +66,8 @@ class MTRNN(eqx.Module):
     channels: Channels | None = eqx.field(static=True, default=None)
     learned_bias: bool = eqx.field(static=True, default=True)
     initial_io: InitialIO = eqx.field(static=True, default="sensed")
+    variance_weights: Float[Array, "D C"] | None = eqx.field(converter=_array, default=None)
+    variance_bias: Float[Array, " D"] | None = eqx.field(converter=_array, default=None)
 
     def __check_init__(self) -> None:
         if len(self.names) < 2:
@@ -63,15 +83,10 @@ class MTRNN(eqx.Module):
                 f"level '{self.names[0]}' needs one unit per channel "
                 f"({len(self.channels)}), got {self.io_size}"
             )
-        for name, shape in (
-            ("weights", (self.size,) * 2),
-            ("bias", (self.size,)),
-            ("tau", (self.size,)),
-        ):
-            if getattr(self, name).shape != shape:
-                raise SettingError(
-                    f"{name} must have shape {shape}, got {getattr(self, name).shape}"
-                )
+        for name, shape in shapes(self.sizes, self.variance).items():
+            got = np.shape(getattr(self, name))
+            if got != shape:
+                raise SettingError(f"{name} must have shape {shape}, got {got}")
 
     @classmethod
     def draw(
@@ -84,6 +99,7 @@ class MTRNN(eqx.Module):
         learned_bias: bool = True,
         initial_io: InitialIO = "sensed",
         channels: Channels | None = None,
+        variance: bool = False,
     ) -> "MTRNN":
         """Draw a network's initial weights.
 
@@ -95,13 +111,15 @@ class MTRNN(eqx.Module):
             learned_bias: Whether training moves the bias.
             initial_io: What the IO units' potentials start from.
             channels: What the IO units stand for, one channel each.
+            variance: Whether the network predicts the variance of every channel as well, see
+                `predict`; its read-out begins without any influence of the context.
         """
         if not (math.isfinite(gain) and gain >= 0):
             raise SettingError(f"the gain of the initial weights must be ≥ 0, got {gain}")
         levels = named(levels)
         sizes = tuple(level.size for level in levels)
         weights = draw_weights(sizes, gain, scale, key)
-        return cls(
+        drawn = cls(
             weights=weights,
             bias=jnp.zeros(sum(sizes), weights.dtype),
             tau=jnp.asarray([tau for level in levels for tau in level.taus], weights.dtype),
@@ -111,6 +129,23 @@ class MTRNN(eqx.Module):
             learned_bias=learned_bias,
             initial_io=initial_io,
         )
+        if not variance:
+            return drawn
+        return replace(
+            drawn,
+            variance_weights=jnp.zeros((sizes[0], sum(sizes[1:])), weights.dtype),
+            variance_bias=jnp.full(sizes[0], 2 * math.log(FIRST_DEVIATION), weights.dtype),
+        )
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """Everything that has a value for every unit or weight, by the names of the fields."""
+        return {name: getattr(self, name) for name in shapes(self.sizes, self.variance)}
+
+    @property
+    def variance(self) -> bool:
+        """Whether the network predicts the variance of its channels."""
+        return self.variance_weights is not None or self.variance_bias is not None
 
     @property
     def levels(self) -> tuple[Level, ...]:
@@ -142,7 +177,7 @@ class MTRNN(eqx.Module):
 
     def lasting(self, scale: float) -> "MTRNN":
         """Return the same network, its motions lasting `scale` times as long (0.5 to 2)."""
-        return replace(self, tau=scaled_tau(np.asarray(self.tau), scale))
+        return replace(self, tau=jnp.asarray(scaled_tau(np.asarray(self.tau), scale)))
 
     def wired_weights(self) -> Float[Array, "N N"]:
         """Return the weights with what is not wired held at 0, in value and in gradient."""

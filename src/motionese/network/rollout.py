@@ -18,6 +18,8 @@ is one contraction of the stacked δ afterwards, and one that nobody asks for is
     ∂E/∂τ = −Σ ε² δ_{t+1} (W x_t + b − u_t).
 """
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -92,16 +94,9 @@ def _rollout(
     return jnp.concatenate([initial[None], later])
 
 
-def _forward(
-    weights: Array,
-    bias: Array,
-    tau: Array,
-    initial: Array,
-    sensed: Array,
-    share: Array,
-    noise: Array | None,
-) -> tuple[Array, Saved]:
-    potentials = _rollout(weights, bias, tau, initial, sensed, share, noise)
+def _forward(*inputs: Any) -> tuple[Array, Saved]:
+    weights, bias, tau, _, sensed, share, noise = inputs
+    potentials = _rollout(*inputs)
     return potentials, (weights, bias, tau, sensed, share, potentials, noise is not None)
 
 

@@ -24,15 +24,16 @@ def step(
     network: MTRNN,
     potentials: Float[Array, "*batch N"],
     sensed: Float[Array, "*batch D"],
-    share: float | Float[Array, "*#batch #D"],
+    share: float | Float[Array, "..."],
 ) -> Float[Array, "*batch N"]:
-    """Return the potentials one step later, to the bits of a rollout of two rows.
+    """Return the potentials one step later, to the bits of a compiled rollout of two rows.
 
     Args:
         network: The network.
         potentials: u of all units, of one state or of a batch.
         sensed: What is sensed now, in the unit interval; anything finite where `share` is 0.
-        share: How much of an input is sensed, the rest being the network's own prediction.
+        share: How much of an input is sensed, the rest being the network's own prediction: one
+            for all, or an array that broadcasts to `sensed`.
     """
     weights, bias, tau = widened(network)
     u = jnp.pad(potentials.reshape(-1, network.size), ((0, 0), (0, tau.size - network.size)))

@@ -15,7 +15,7 @@ from pydantic import BaseModel, Field
 from motionese.channels import Channel, Channels
 from motionese.errors import MotioneseError, StorageError
 from motionese.files import write_whole
-from motionese.network.mtrnn import MTRNN, InitialIO
+from motionese.network.mtrnn import MTRNN, InitialIO, shapes
 
 FORMAT, VERSION = "motionese-mtrnn", 1
 
@@ -59,8 +59,8 @@ def write_network(
         "initial_io": network.initial_io,
         "facts": dict(facts),
     }
-    own = {"weights": network.weights, "bias": network.bias, "tau": network.tau}
-    tensors = {name: np.ascontiguousarray(value) for name, value in {**own, **arrays}.items()}
+    held = {**network.arrays, **arrays}
+    tensors = {name: np.ascontiguousarray(value) for name, value in held.items()}
     write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
 
 
@@ -77,14 +77,15 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
     structure, tensors = _contents(path)
     try:
         told = _Description(**structure)
-        units = sum(level.size for level in told.levels)
-        expected = {"weights": (units, units), "bias": (units,), "tau": (units,)}
+        sizes = tuple(level.size for level in told.levels)
+        expected = shapes(sizes, "variance_weights" in tensors)
         for name, shape in expected.items():
             _check_tensor(path, name, tensors.get(name), shape)
+        own: dict[str, Any] = {name: tensors.pop(name) for name in expected}
         network = MTRNN(
-            **{name: tensors.pop(name) for name in expected},
+            **own,
             names=tuple(level.name for level in told.levels),
-            sizes=tuple(level.size for level in told.levels),
+            sizes=sizes,
             learned_bias=told.learned_bias,
             initial_io=told.initial_io,
             channels=None

@@ -10,7 +10,7 @@ import numpy as np
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError, unknown
 from motionese.learning import Fit, Motions
-from motionese.learning.recognise import SAME_RATE
+from motionese.learning.recognition.recognise import SAME_RATE
 from motionese.recordings import choose, chosen, prepare, read
 
 

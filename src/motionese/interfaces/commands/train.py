@@ -17,7 +17,7 @@ from motionese.interfaces.commands.tables import error_table, verdict
 from motionese.interfaces.commands.training_display import TrainingDisplay
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Fit, Motions, Progress, Training, save, train
-from motionese.learning.course import epochs_done
+from motionese.learning.training.training_state import epochs_done
 from motionese.network import MTRNN, Level
 
 BY_LEVEL = ("bound", "noise")
@@ -89,6 +89,7 @@ def train_model(
             checkpoint=checkpoint,
         )
     save(out, fit)
+    checkpoint.unlink(missing_ok=True)  # not before: what was learned is in one of the two files
     console.print(error_table(fit))
     console.print(verdict(fit))
     console.print(f"{fit.status}. The model is {out}")
@@ -135,6 +136,8 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         if name not in Training.model_fields:
             raise SettingError(unknown("setting", name, Training.model_fields))
         given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
+        if name == "learned":
+            given[name] = told.split(",")
     try:
         return Training(**given)
     except ValidationError as error:

@@ -6,8 +6,9 @@ import jax.numpy as jnp
 import optax
 from jaxtyping import Array, Float, Int
 
-from motionese.learning.batch import Batch
-from motionese.learning.objective import initial_potentials, predictions, squared_errors
+from motionese.learning.error import error_of
+from motionese.learning.motions.batch import Batch
+from motionese.learning.objective import initial_potentials, predictions
 from motionese.network import MTRNN
 
 _Descent = tuple[Array, optax.OptState, Array, Array, Array]
@@ -43,12 +44,13 @@ def descend(
             through all iterations and choose the smallest loss.
     """
     motions, starts, units = free.shape
+    error = error_of(network)
     repeated = Batch(*(jnp.repeat(a, starts, axis=0) for a in batch))
 
     def losses(states: Array) -> Array:
         predicted = predictions(network, repeated, states, 0.0)
         context = states[:, network.io_size :]
-        return squared_errors(predicted, repeated) + penalty * (context**2).sum(-1)
+        return error(predicted, repeated) + penalty * (context**2).sum(-1)
 
     def total(states: Array) -> tuple[Array, Array]:
         each = losses(states)

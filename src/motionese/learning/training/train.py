@@ -8,10 +8,10 @@ from jaxtyping import Array, Float
 from numpy import ndarray
 
 from motionese.learning.fit import Fit
-from motionese.learning.job import prepared
-from motionese.learning.motions import Motions
-from motionese.learning.progress import Progress
+from motionese.learning.motions.motions import Motions
 from motionese.learning.settings import Training
+from motionese.learning.status import Progress
+from motionese.learning.training.trainer import make_trainer
 from motionese.network import MTRNN
 
 CHECKPOINT_EVERY_S = 5.0
@@ -31,7 +31,7 @@ def train(
     progress: Callable[[Progress], None] | None = None,
     checkpoint: str | Path | None = None,
 ) -> Fit:
-    """Train a network on motions, equations (3)–(5).
+    """Train a network on motions: equations (3)–(5), of whatever `settings.learned` names.
 
     Held-out motions are recognised after every chunk of epochs, the weights frozen: their loss
     tells how well motions that were not learned fit the network.
@@ -48,36 +48,33 @@ def train(
             code.
         progress: Called between chunks of epochs.
         checkpoint: Where training is kept every few seconds; if the file is there, training goes
-            on from it, to the same bits as without a break. It is removed at the end.
+            on from it, to the same bits as without a break. At the end it is left, and gives the
+            same fit at once: whoever has saved the fit removes it.
 
     Raises:
         SettingError: Channels, a rate or initial states do not fit, an unknown level in bounds or
-            noise, noise without a key, or no epochs.
+            noise, noise without a key, no epochs, or an error that the network has no variance for.
         StorageError: The checkpoint belongs to another training, or cannot be read.
     """
-    job = prepared(
+    trainer = make_trainer(
         network, motions, epochs, settings or Training(), initial_states, validation, key, padded_to
     )
-    course = job.begun
+    state = trainer.beginning
     checkpoint = None if checkpoint is None else Path(checkpoint)
     if checkpoint and checkpoint.exists():
-        course = course.resumed(checkpoint, job.origin)
-    status, written = job.ended(course), monotonic()
+        state = state.resumed(checkpoint, trainer.origin)
+    status, written = trainer.ended(state), monotonic()
     try:
         while status is None:
-            course, status = job.advanced(course)
+            state, status = trainer.advanced(state)
             if status and status.failed:
                 break
             if progress:
-                progress(job.progress(course))
+                progress(trainer.progress(state))
             if checkpoint and monotonic() - written > CHECKPOINT_EVERY_S:
-                course.write(checkpoint, job.origin)
+                state.write(checkpoint, trainer.origin)
                 written = monotonic()
-        fit = job.fit(course, status)
-    except KeyboardInterrupt:
+    finally:
         if checkpoint and not (status and status.failed):
-            course.write(checkpoint, job.origin)
-        raise
-    if checkpoint:
-        checkpoint.unlink(missing_ok=True)
-    return fit
+            state.write(checkpoint, trainer.origin)
+    return trainer.fit(state, status)

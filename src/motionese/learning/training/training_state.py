@@ -1,4 +1,4 @@
-"""The course of a training: all that its next epoch depends on, in memory and in a checkpoint."""
+"""The state of a training: all that its next epoch depends on, in memory and in a checkpoint."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,26 +14,26 @@ from safetensors.numpy import save as as_safetensors
 
 from motionese.errors import StorageError
 from motionese.files import write_whole
-from motionese.learning.epochs import State
+from motionese.learning.training.epochs import Iterate
 
-FORMAT, VERSION = "motionese-training", "1"
+FORMAT, VERSION = "motionese-training", "2"
 SERIES = ("losses", "validation_losses")
 
 
 @dataclass(frozen=True)
-class Course:
+class TrainingState:
     """Where a training stands.
 
     Attributes:
-        state: Parameters, the update rule's memory, epochs done.
-        best: The state that was best for the held-out motions so far.
+        latest: Parameters, the update rule's memory, epochs done.
+        best: The one that was best for the held-out motions so far.
         held_out: Initial states of the held-out motions, as found last. [H, N]
         losses: One an epoch. [E]
         validation_losses: One a chunk of epochs. [V]
     """
 
-    state: State
-    best: State
+    latest: Iterate
+    best: Iterate
     held_out: Float[ndarray, "H N"]
     losses: Float[ndarray, " E"]
     validation_losses: Float[ndarray, " V"]
@@ -41,14 +41,14 @@ class Course:
     def write(self, path: Path, origin: Mapping[str, str]) -> None:
         """Write a checkpoint, whole or not at all; `origin` says what it belongs to."""
         arrays = {name: getattr(self, name) for name in (*SERIES, "held_out")}
-        for name in ("state", "best"):
+        for name in ("latest", "best"):
             for i, leaf in enumerate(jax.tree.leaves(getattr(self, name))):
                 arrays[f"{name}.{i}"] = np.asarray(leaf)
         facts = {"format": FORMAT, "version": VERSION, "epochs": str(len(self.losses)), **origin}
         write_whole(path, as_safetensors(arrays, facts))
 
-    def resumed(self, path: Path, origin: Mapping[str, str]) -> "Course":
-        """Return the course that a checkpoint holds, this one being where it began.
+    def resumed(self, path: Path, origin: Mapping[str, str]) -> "TrainingState":
+        """Return the state that a checkpoint holds, this one being where it began.
 
         Raises:
             StorageError: The file is no checkpoint of this version, is cut short, or belongs to
@@ -64,8 +64,8 @@ class Course:
         for name in SERIES:
             _check(path, arrays, name, (len(arrays.get(name, ())),))
         _check(path, arrays, "held_out", self.held_out.shape)
-        return Course(
-            _filled(path, arrays, "state", self.state),
+        return TrainingState(
+            _filled(path, arrays, "latest", self.latest),
             _filled(path, arrays, "best", self.best),
             arrays["held_out"],
             arrays["losses"],
@@ -91,13 +91,13 @@ def _contents(path: Path) -> tuple[dict[str, str], dict[str, ndarray]]:
     return facts, arrays
 
 
-def _filled(path: Path, arrays: Mapping[str, ndarray], name: str, like: State) -> State:
+def _filled(path: Path, arrays: Mapping[str, ndarray], name: str, like: Iterate) -> Iterate:
     leaves, structure = jax.tree.flatten(like)
     for i, leaf in enumerate(leaves):
         _check(path, arrays, f"{name}.{i}", leaf.shape)
     filled = [jnp.asarray(arrays[f"{name}.{i}"], leaf.dtype) for i, leaf in enumerate(leaves)]
-    state: State = jax.tree.unflatten(structure, filled)
-    return state
+    iterate: Iterate = jax.tree.unflatten(structure, filled)
+    return iterate
 
 
 def _check(path: Path, arrays: Mapping[str, ndarray], name: str, shape: tuple[int, ...]) -> None:

@@ -1,4 +1,9 @@
-"""Generation in closed loop: from initial states, the network fed with its own predictions."""
+"""Generation in closed loop: from initial states, the network fed with its own predictions.
+
+A motion may begin where it was learned, or where the robot actually is.
+"""
+
+from collections.abc import Mapping
 
 import equinox as eqx
 import jax
@@ -9,6 +14,7 @@ from numpy import ndarray
 
 from motionese.errors import ChannelError, SettingError
 from motionese.network import MTRNN, rollout
+from motionese.unit_interval import logit
 
 
 def generate(
@@ -48,6 +54,40 @@ def activity(
     """Return y of all units while the network generates, as `generate` does."""
     _, outputs = _closed_loop(network, initial_state, steps, first)
     return outputs
+
+
+def placed(
+    network: MTRNN, initial_state: Float[ndarray, "*batch N"], here: Mapping[str, float]
+) -> Float[ndarray, "*batch N"]:
+    """Return initial states of motions that begin where the robot is.
+
+    The IO units of the channels that are given start from the logit of what is sensed, as in
+    training; context units keep the motion. Those of a network whose `initial_io` is "zero" stay
+    at 0: it takes up where the robot is as its first input alone, `first` of `generate`.
+
+    Args:
+        network: A network that carries channels.
+        initial_state: u_0 of all levels, of one motion or of a batch.
+        here: Where the robot is, by channel, in the channels' units.
+
+    Raises:
+        ChannelError: A channel that the network does not have, or a value that is not finite.
+    """
+    channels = network.channels
+    if channels is None:
+        raise ChannelError("the network carries no channels; train it on motions first")
+    columns, values = channels.indices(here), np.full(len(channels), 0.0)
+    values[columns] = list(here.values())
+    wrong = [name for name, value in here.items() if not np.isfinite(value)]
+    if wrong:
+        raise ChannelError(
+            f"channel '{wrong[0]}': where the robot is must be finite, got {here[wrong[0]]}"
+        )
+    states = np.array(initial_state)
+    if network.initial_io == "sensed":
+        unit = channels.to_unit(values)[columns]
+        states[..., columns] = logit(unit)
+    return states
 
 
 def _closed_loop(

@@ -7,8 +7,8 @@ from jaxtyping import Float, Int
 from numpy import ndarray
 
 from motionese.learning.accuracy import channel_errors, predicted
-from motionese.learning.batch import Batch
-from motionese.learning.motions import Motions
+from motionese.learning.motions.batch import Batch
+from motionese.learning.motions.motions import Motions
 from motionese.learning.settings import Recognition
 from motionese.learning.status import Ending, Status
 from motionese.network import MTRNN

@@ -16,8 +16,8 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import MotionError, unknown
-from motionese.learning.arrays import channels_of, checked, checked_weights
-from motionese.learning.batch import Batch, padded
+from motionese.learning.motions.arrays import channels_of, checked, checked_weights
+from motionese.learning.motions.batch import Batch, padded
 from motionese.recordings import Episode, Recording, choose, prepare
 from motionese.recordings import read as read_recording
 from motionese.recordings import write as write_recording

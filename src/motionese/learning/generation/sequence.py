@@ -7,8 +7,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import ChannelError, SettingError
-from motionese.learning.generate import generate
-from motionese.learning.placed import placed
+from motionese.learning.generation.generate import generate, placed
 from motionese.minimum_jerk import minimum_jerk, transition_rows
 from motionese.network import MTRNN
 

@@ -16,13 +16,13 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
-from motionese.learning.carried import carried
-from motionese.learning.descent import descend
 from motionese.learning.fit import Fit
-from motionese.learning.found import Found, judged
 from motionese.learning.memory import Memory, Recall
-from motionese.learning.motions import Motions
+from motionese.learning.motions.motions import Motions
+from motionese.learning.objective import with_shared_channels
 from motionese.learning.optimisers import recognition_rule
+from motionese.learning.recognition.descent import descend
+from motionese.learning.recognition.result import Found, judged
 from motionese.learning.settings import Recognition
 from motionese.network import MTRNN
 
@@ -110,7 +110,7 @@ def recognise_all(
         raise SettingError(
             f"the motions have {motions.rate_hz:g} rows a second, the model was trained at {rate:g}"
         )
-    network, motions = carried(network, motions)
+    network, motions = with_shared_channels(network, motions)
     if starts is not None and starts.shape[::2] != (len(motions), network.size):
         raise SettingError(
             f"starts must have shape [{len(motions)} motions, any number, {network.size} units], "
