@@ -49,7 +49,7 @@ def test_a_plain_installation_has_all_commands_for_csv_npz_and_eipl(arm):
             "import eipl --rate 20 --out again.csv",
         ],
         "import motionese, motionese.runtime\n"
-        "from motionese.interfaces.commands import convert, generate, recognise, train",
+        "from motionese.interfaces.commands import export, generate, recognise, train",
     )
 
     assert (status, errors) == (0, "")

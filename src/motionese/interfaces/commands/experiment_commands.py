@@ -63,16 +63,14 @@ def reproduce(
 
     Stopped or killed at any time, the same command goes on, and ends with the same results.
     """
-    with plainly("stopped; the same command goes on"):
+    with plainly("stopped; the same command goes on") as console:
         # Networks this small are fastest on the CPU; read when jax is imported.
         os.environ.setdefault("JAX_PLATFORMS", "cpu")
         _check_extra("reproduce")
-        from rich.console import Console
-
         from motionese.interfaces.commands.reproduce import reproduce as perform
 
         too_few = perform(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             conditions=conditions or (),
             seeds=seeds,
             preset=preset,
@@ -87,13 +85,11 @@ def reproduce(
 
 def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RUN")]) -> None:
     """Write the report of a run folder again, also while its runs go on."""
-    with plainly("stopped; the report was not written"):
+    with plainly("stopped; the report was not written") as console:
         _check_extra("report")
-        from rich.console import Console
-
         from motionese.interfaces.commands.results import write_results
 
-        too_few = write_results(run, Console(markup=False, highlight=False, soft_wrap=True))
+        too_few = write_results(run, console)
     _end(too_few)
 
 
@@ -135,14 +131,12 @@ def teach(
     ] = False,
 ) -> None:
     """Teach the simulated robot yourself, on a page in your browser."""
-    with plainly("stopped; the session is kept, the same command goes on"):
+    with plainly("stopped; the session is kept, the same command goes on") as console:
         _check_extra("teach", "web")
-        from rich.console import Console
-
         from motionese.interfaces.page.server import teach as serve
 
         serve(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             begin=begin,
             session=session,
             host=host,

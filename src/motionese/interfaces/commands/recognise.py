@@ -29,8 +29,7 @@ def recognise_motions(
     out: Path | None,
     initial: Path | None,
     seed: int,
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
+    reading: Mapping[str, Any],
 ) -> None:
     """Recognise every motion of a recording, and tell how well each was recognised.
 
@@ -42,8 +41,7 @@ def recognise_motions(
         out: Where to write the recognised motions, all channels; nowhere for None.
         initial: Where to write the initial states (.json); nowhere for None.
         seed: Of the random starts.
-        columns: Format, episode and time column, as `Motions.read` takes them.
-        choice: What else `Motions.read` takes.
+        reading: How, as `Motions.read` takes it.
     """
     if initial is not None:
         check_output("--initial", initial, (".json",))
@@ -53,7 +51,7 @@ def recognise_motions(
     assert fit.network.channels is not None, "a trained network carries channels"
     names = fit.network.channels.names
     seen = list(names) if observed is None else _matching(fit.network.channels, observed)
-    motions = read_for(fit, source, needed=seen, **columns, **choice)
+    motions = read_for(fit, source, needed=seen, **reading)
     console.print(f"{source}: looked at {', '.join(seen)}")
     found = _recognised(console, fit, motions.showing(seen), jax.random.key(seed))
     console.print(_table(fit, motions, found, seen))

@@ -37,8 +37,7 @@ def train_model(
     resume: bool,
     settings: Training,
     logs: Sequence[str],
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
+    reading: Mapping[str, Any],
 ) -> Fit:
     """Train a network on recordings, save it, and tell how good it is.
 
@@ -55,12 +54,11 @@ def train_model(
         resume: Whether to go on with a training that was stopped.
         settings: How to train.
         logs: Kinds of logs, see `logs.open_logs`.
-        columns: Format, episode and time column, as `Motions.read` takes them.
-        choice: What else `Motions.read` takes.
+        reading: How, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
     context = read_levels(levels)
-    motions = Motions.read(source, **columns, **choice)
+    motions = Motions.read(source, **reading)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
     drawn, noise = jax.random.split(jax.random.key(seed))
     network = MTRNN([Level(len(motions.channels), io_tau), *context], key=drawn)

@@ -1,8 +1,6 @@
-"""Recordings in, one file of motions out; a model's step as ONNX, motions in others' formats."""
+"""A model's step as ONNX, motions in others' formats."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 
@@ -11,28 +9,6 @@ from motionese.interfaces.commands.motion_text import description
 from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
 from motionese.interfaces.onnx_export import TOLERANCE, export_onnx
 from motionese.learning import Motions, load
-
-
-def import_motions(
-    console: Console,
-    source: Path,
-    out: Path,
-    *,
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
-) -> None:
-    """Read and prepare recordings, write them, and tell what was written.
-
-    Args:
-        console: Where it is told.
-        source: The file or folder to read.
-        out: The file to write, by its suffix.
-        columns: Format, episode and time column, as `Motions.read` takes them.
-        choice: What else `Motions.read` takes.
-    """
-    motions = Motions.read(source, **columns, **choice)
-    motions.write(out)
-    console.print(f"{out}: {description(motions)}")
 
 
 def export_model(console: Console, model: Path, out: Path) -> None:
