@@ -13,9 +13,8 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.even_rows import check_even_and_whole
-from motionese.recordings.formats.numpy_files import UNREADABLE, why
-from motionese.recordings.formats.written import new_folder
+from motionese.recordings.formats.conventions import UNREADABLE, why
+from motionese.recordings.formats.writing import check_even_and_whole, new_folder
 from motionese.recordings.recording import Episode, Recording
 
 JOINTS, BOUNDS = "joints.npy", "joint_bounds.npy"

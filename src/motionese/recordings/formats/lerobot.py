@@ -10,7 +10,7 @@ from jaxtyping import Float, Int
 from numpy import ndarray
 
 from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.even_rows import times_unless_even
+from motionese.recordings.formats.conventions import times_unless_even
 from motionese.recordings.formats.lerobot_features import (
     ACTION,
     STATE,

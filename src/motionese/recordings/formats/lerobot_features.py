@@ -9,8 +9,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.fault import fault
-from motionese.recordings.formats.widest import WIDEST
+from motionese.recordings.formats.conventions import WIDEST, fault
 
 STATE, ACTION = "observation.state", "action"
 VERSIONS = ("v3.0", "v2.1")

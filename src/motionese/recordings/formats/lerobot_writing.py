@@ -9,10 +9,8 @@ import pandas as pd
 from numpy import ndarray
 
 from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.even_rows import check_even_and_whole
 from motionese.recordings.formats.lerobot_features import ACTION, BOOKKEEPING, STATE
-from motionese.recordings.formats.next_row import next_rows
-from motionese.recordings.formats.written import new_folder
+from motionese.recordings.formats.writing import check_even_and_whole, new_folder, next_rows
 from motionese.recordings.recording import Recording
 
 _DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"

@@ -1,6 +1,6 @@
 """MCAP with JSON messages: one file an episode, a folder of files a recording.
 
-Channels are named TOPIC.a.b by where the number stands in the message (see `mcap_numbers`).
+Channels are named TOPIC.a.b by where the number stands in the message (see `numbers`).
 Messages in other encodings are left alone. A topic that we wrote carries in its MCAP channel's
 metadata what JSON cannot say (names, units, rate, the episode's name); its channels keep their
 plain names.
@@ -18,12 +18,13 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.bookkeeping import is_bookkeeping
-from motionese.recordings.formats.even_rows import times_unless_even
-from motionese.recordings.formats.mcap_numbers import numbers
-from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
-from motionese.recordings.formats.mcap_writing import write
-from motionese.recordings.natural_order import natural
+from motionese.recordings.formats.conventions import (
+    WIDEST,
+    is_bookkeeping,
+    natural,
+    times_unless_even,
+)
+from motionese.recordings.formats.mcap_writing import METADATA_KEY, TopicMetadata, write
 from motionese.recordings.rate import rate_of_times
 from motionese.recordings.recording import Episode, Recording
 
@@ -35,7 +36,7 @@ class _Tape:
     """What one file holds: numbers by channel and log time [ns]."""
 
     file: Path
-    told: Told | None = None
+    told: TopicMetadata | None = None
     samples: dict[str, dict[int, float]] = field(default_factory=dict)
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
@@ -73,6 +74,28 @@ def read(path: Path) -> Recording:
     )
 
 
+def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
+    """Yield (path, number) for every number in `value`: `.a.b` in objects, `.a[0]` in arrays.
+
+    An object with a list of strings `name`, such as a JointState, names the columns of its other
+    lists of that length: `.position.elbow`. Truth values, text and null are no numbers.
+    """
+    if isinstance(value, dict):
+        labels = _labels(value.get("name"))
+        for key, part in value.items():
+            if labels and isinstance(part, list) and len(part) == len(labels):
+                for label, item in zip(labels, part, strict=True):
+                    yield from numbers(item, f"{path}.{key}.{label}")
+            else:
+                yield from numbers(part, f"{path}.{key}")
+    elif isinstance(value, list):
+        if len(value) <= WIDEST:
+            for i, item in enumerate(value):
+                yield from numbers(item, f"{path}[{i}]")
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield path, float(value)
+
+
 def _read_tape(file: Path) -> _Tape:
     tape = _Tape(file)
     topics: dict[int, Any] = {}
@@ -81,7 +104,7 @@ def _read_tape(file: Path) -> _Tape:
             topics[record.id] = record
             tape.encodings.add(record.message_encoding)
             if METADATA_KEY in record.metadata:
-                tape.told = Told.read(file, record.metadata[METADATA_KEY])
+                tape.told = TopicMetadata.read(file, record.metadata[METADATA_KEY])
         elif hasattr(record, "channel_id"):
             topic = topics.get(record.channel_id)
             if topic is None or topic.message_encoding != "json":
@@ -174,3 +197,9 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
         values=values,
         observed=observed,
     )
+
+
+def _labels(names: Any) -> list[str] | None:
+    if isinstance(names, list) and all(isinstance(n, str) for n in names):
+        return names if len(set(names)) == len(names) else None
+    return None

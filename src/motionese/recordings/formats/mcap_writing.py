@@ -2,19 +2,53 @@
 
 import json
 import re
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
 from jaxtyping import Int
 from numpy import ndarray
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
-from motionese.recordings.formats.written import new_folder, write_file
+from motionese.recordings.formats.conventions import fault
+from motionese.recordings.formats.writing import new_folder, write_file
 from motionese.recordings.recording import Episode, Recording
 
 TOPIC = "/motion"
+METADATA_KEY = "motionese"
+
+
+class TopicMetadata(BaseModel):
+    """What a topic that we wrote tells beside its JSON messages, in its MCAP channel's metadata.
+
+    The episode's name, its channels with their units, and its rate [Hz] where there is one.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    version: Literal[1] = 1
+    episode: str
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+    rate_hz: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None
+
+    def named_units(self) -> Iterator[tuple[str, str]]:
+        """Yield every channel with its unit."""
+        return zip(self.channels, self.units, strict=False)
+
+    @classmethod
+    def read(cls, file: Path, text: str) -> "TopicMetadata":
+        """Read the metadata's text; `RecordingError` where it is of no version that is read."""
+        try:
+            return cls.model_validate_json(text)
+        except ValidationError as error:
+            raise RecordingError(
+                f"{file}: its metadata '{METADATA_KEY}' is not what this version writes: "
+                f"{fault(error)}"
+            ) from error
 
 
 def write(path: Path, recording: Recording) -> None:
@@ -56,7 +90,7 @@ def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
         for name, unit in zip(recording.channels, recording.units, strict=True)
     }
     schema = json.dumps({"type": "object", "properties": properties})
-    told = Told(
+    told = TopicMetadata(
         episode=episode.name,
         channels=recording.channels,
         units=recording.units,

@@ -10,9 +10,8 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.fault import fault
-from motionese.recordings.formats.numpy_files import UNREADABLE, why
-from motionese.recordings.formats.written import write_file
+from motionese.recordings.formats.conventions import UNREADABLE, fault, why
+from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
 
 FORMAT, VERSION = "motionese-motions", 1

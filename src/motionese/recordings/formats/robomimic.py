@@ -8,20 +8,24 @@ names no columns: a dataset that we wrote says in its attributes `names` and `un
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from motionese.errors import RecordingError, needs
+from motionese.recordings.formats.conventions import WIDEST, natural, why
 from motionese.recordings.formats.robomimic_damage import check_walkable
-from motionese.recordings.formats.robomimic_writing import DERIVED, write
-from motionese.recordings.formats.widest import WIDEST
-from motionese.recordings.natural_order import natural
+from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.rate import FASTEST_HZ
 from motionese.recordings.recording import Episode, Recording
 
-__all__ = ["read", "write"]
+DERIVED = "derived_from"
+"""Attribute of a dataset that is computed from another one, so that reading leaves it out."""
+
+_NO_ENVIRONMENT = {"env_name": "recording", "type": 2}
+"""robomimic asks for a kind of environment (2: gym) even where none is ever made."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,35 @@ def read(path: Path) -> Recording:
             return _recording(path, file)
     except (OSError, RuntimeError, LookupError, TypeError, ValueError, MemoryError) as error:
         # What h5py raises depends on which byte is damaged.
-        why = " ".join(str(error).split())
-        raise RecordingError(f"{path}: not an HDF5 file, cut short, or damaged ({why})") from error
+        raise RecordingError(
+            f"{path}: not an HDF5 file, cut short, or damaged ({why(error)})"
+        ) from error
+
+
+def write(path: Path, recording: Recording) -> None:
+    """Write the recording as demonstrations with one observation key, `state` [T, D].
+
+    `actions` are the next row's state (the last row its own), which is what a learner imitates;
+    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up.
+
+    Raises:
+        RecordingError: Gaps or uneven times, which robomimic cannot hold.
+        MissingPackageError: h5py is not installed.
+    """
+    try:
+        import h5py  # noqa: PLC0415
+    except ImportError as error:
+        raise needs("h5py", "hdf5", "writing robomimic's HDF5") from error
+    check_even_and_whole(path, recording, "robomimic's HDF5")
+    content = BytesIO()
+    with h5py.File(content, "w") as file:
+        data = file.create_group("data")
+        data.attrs["total"] = sum(len(e.values) for e in recording.episodes)
+        rate = {} if recording.rate_hz is None else {"control_freq": recording.rate_hz}
+        data.attrs["env_args"] = json.dumps({**_NO_ENVIRONMENT, "env_kwargs": rate})
+        for i, episode in enumerate(recording.episodes):
+            _write_demo(data.create_group(f"demo_{i}"), episode, recording)
+    write_file(path, content.getvalue())
 
 
 def _recording(path: Path, file: Any) -> Recording:
@@ -172,3 +203,19 @@ def _json(text: Any) -> Any:
         return json.loads(text)
     except (TypeError, ValueError, RecursionError):
         return None
+
+
+def _write_demo(demo: Any, episode: Episode, recording: Recording) -> None:
+    rows = len(episode.values)
+    demo.attrs["num_samples"] = rows
+    demo.attrs["name"] = episode.name
+    state = demo.create_dataset("obs/state", data=episode.values)
+    state.attrs["names"] = json.dumps(recording.channels)
+    state.attrs["units"] = json.dumps(recording.units)
+    derived = {
+        "actions": next_rows(episode.values),
+        "rewards": np.zeros(rows),
+        "dones": (np.arange(rows) == rows - 1).astype(np.int64),
+    }
+    for name, values in derived.items():
+        demo.create_dataset(name, data=values).attrs[DERIVED] = "obs/state"

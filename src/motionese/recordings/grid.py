@@ -1,4 +1,4 @@
-"""Putting rows that were recorded at uneven times on an even grid, hole by hole."""
+"""Rows on an even grid: recorded at uneven times, filled hole by hole, or at another rate."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
-from motionese.errors import RecordingError
+from motionese.errors import RecordingError, SettingError
 from motionese.recordings.recording import Episode, Recording
 
 JITTER = 0.1
@@ -15,6 +15,8 @@ HOLE = 2.5
 """Usual intervals of a channel from which on nothing is filled in between two samples."""
 LONGEST = 1000
 """Grid rows for every recorded row beyond which the times cannot be meant."""
+FASTER = 100
+"""Largest factor by which a rate can be raised."""
 
 
 def even(recording: Recording, rate_hz: float) -> Recording:
@@ -33,6 +35,29 @@ def even(recording: Recording, rate_hz: float) -> Recording:
             placed = _on_grid(recording, episode, (episode.times - episode.times[0]) * rate_hz)
         episodes.append(replace(placed, times=None))
     return replace(recording, rate_hz=rate_hz, episodes=tuple(episodes))
+
+
+def resampled(recording: Recording, rate_hz: float) -> Recording:
+    """Return an evenly spaced recording at another rate [Hz].
+
+    Going down, every channel is averaged first, over a window of one new interval around each
+    row, so that nothing faster folds into the new rate and nothing is delayed. A new row is
+    observed where both rows around it were.
+
+    Raises:
+        SettingError: The rate would be raised more than a hundredfold.
+    """
+    assert recording.rate_hz is not None
+    step = recording.rate_hz / rate_hz
+    if abs(step - 1) < 1e-9:
+        return recording
+    if step * FASTER < 1:
+        raise SettingError(
+            f"{recording.source}: recorded at {recording.rate_hz:g} Hz, it cannot be "
+            f"resampled to {rate_hz:g} Hz, more than {FASTER} times as much"
+        )
+    episodes = tuple(_resampled(e, step) if len(e.values) else e for e in recording.episodes)
+    return replace(recording, rate_hz=rate_hz, episodes=episodes)
 
 
 def _on_grid(recording: Recording, episode: Episode, at: Float[ndarray, " T"]) -> Episode:
@@ -63,3 +88,35 @@ def _near(grid: Float[ndarray, " G"], at: Float[ndarray, " K"]) -> Bool[ndarray,
     usual = max(float(np.median(np.diff(at))), 1.0) if len(at) > 1 else 1.0
     between = (after > 0) & (after < len(at)) & (right - left <= HOLE * usual)
     return np.asarray(beside | between)
+
+
+def _resampled(episode: Episode, step: float) -> Episode:
+    values = np.where(episode.observed, episode.values, 0.0)
+    if step > 1:
+        for column, seen in enumerate(episode.observed.T):
+            edges = np.flatnonzero(np.diff(np.concatenate([[False], seen, [False]])))
+            for start, end in edges.reshape(-1, 2):
+                values[start:end, column] = _averaged(values[start:end, column], step)
+    # A tiny bit beyond the last row is that row, or rounding would cost it.
+    at = np.arange(int((len(values) - 1) / step + 1e-9) + 1) * step
+    before = np.minimum((at + 1e-9).astype(int), len(values) - 1)
+    share = np.clip(at - before, 0.0, None)[:, None]
+    share[share < 1e-9] = 0.0
+    after = np.minimum(before + 1, len(values) - 1)
+    return replace(
+        episode,
+        values=(1 - share) * values[before] + share * values[after],
+        observed=episode.observed[before] & (episode.observed[after] | (share == 0)),
+    )
+
+
+def _averaged(run: Float[ndarray, " R"], width: float) -> Float[ndarray, " R"]:
+    """Return the mean over `width` rows around every row of a run without gaps.
+
+    Beyond its ends the run is turned about its end points, so that a straight line stays one.
+    """
+    reach = min(int(np.ceil((width - 1) / 2)), len(run) - 1)
+    offsets = np.arange(-reach, reach + 1)
+    weights = np.clip(width / 2 + 0.5 - np.abs(offsets), 0.0, 1.0)
+    padded = np.pad(run, reach, mode="reflect", reflect_type="odd")
+    return np.asarray(np.convolve(padded, weights / weights.sum(), mode="valid"))
