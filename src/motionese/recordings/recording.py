@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
@@ -25,6 +26,19 @@ class Episode:
     times: Float[ndarray, " T"] | None
     values: Float[ndarray, "T D"]
     observed: Bool[ndarray, "T D"]
+
+    @classmethod
+    def whole(
+        cls, name: str, values: Float[ndarray, "T D"], times: Float[ndarray, " T"] | None = None
+    ) -> "Episode":
+        """Return an episode of which everything was observed."""
+        return cls(name, times, values, np.ones(values.shape, dtype=bool))
+
+    def times_at(self, rate_hz: float | None) -> Float[ndarray, " T"] | None:
+        """Return the rows' times [s]; where it has none, those of a rate; None without either."""
+        if self.times is None and rate_hz is not None:
+            return np.arange(len(self.values)) / rate_hz
+        return self.times
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,16 @@
 import re
 import zipfile
 import zlib
+from importlib import import_module
 from tokenize import TokenError
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 from pydantic import ValidationError
 
+from motionese.errors import needs
 from motionese.recordings.grid import JITTER
 
 WIDEST = 512
@@ -24,6 +27,26 @@ UNREADABLE = (
 _BOOKKEEPING = re.compile(
     r"(^|[./])(header|stamp|timestamp|seq|sec|secs|nsec|nsecs|nanosec|nanoseconds)([./]|$)"
 )
+
+
+def imported(module: str, extra: str, what: str) -> Any:
+    """Return a module of an extra; `MissingPackageError` that says how to install it."""
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise needs(module.partition(".")[0], extra, what) from error
+
+
+def strings(told: Any, width: int | None = None) -> tuple[str, ...] | None:
+    """Return a list of (so many) strings; None for anything else."""
+    if isinstance(told, list) and all(isinstance(t, str) for t in told):
+        return tuple(told) if width in {None, len(told)} else None
+    return None
+
+
+def numbered(label: str, width: int) -> tuple[str, ...]:
+    """Return names of columns without names: LABEL_0, LABEL_1, …, plainly LABEL for one."""
+    return (label,) if width == 1 else tuple(f"{label}_{i}" for i in range(width))
 
 
 def natural(name: str) -> tuple[tuple[bool, int, str], ...]:

@@ -72,7 +72,7 @@ def write(path: Path, recording: Recording) -> None:
         raise RecordingError(f"{path}: a csv file has its own column '{taken.pop()}'; rename it")
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    times = [_times(e, recording.rate_hz) for e in recording.episodes]
+    times = [e.times_at(recording.rate_hz) for e in recording.episodes]
     timed = all(t is not None for t in times)
     labels = [label(c, u) for c, u in zip(recording.channels, recording.units, strict=True)]
     table.writerow([EPISODE[0], *([f"{TIME[0]} [s]"] if timed else []), *labels])
@@ -176,16 +176,13 @@ def _as_first(part: Recording, first: Recording) -> Sequence[Episode]:
     """Return a file's episodes with their columns in the order of the folder's first file."""
     if part.channels == first.channels and part.units == first.units:
         return part.episodes
-    for name in (*first.channels, *part.channels):
-        if name not in part.channels:
-            raise RecordingError(f"{part.source}: {unknown('channel', name, part.channels)}")
-        if name not in first.channels:
-            raise RecordingError(f"{first.source}: {unknown('channel', name, first.channels)}")
+    for mine, other in ((part, first), (first, part)):
+        for name in other.channels:
+            if name not in mine.channels:
+                raise RecordingError(f"{mine.source}: {unknown('channel', name, mine.channels)}")
     order = [part.channels.index(c) for c in first.channels]
-    for name, was, here in zip(
-        first.channels, first.units, [part.units[i] for i in order], strict=True
-    ):
-        if was != here:
+    for i, name, was in zip(order, first.channels, first.units, strict=True):
+        if was != (here := part.units[i]):
             raise RecordingError(
                 f"{part.source}: channel '{name}' is in [{here}], "
                 f"in {first.source.name} it is in [{was}]"
@@ -193,9 +190,3 @@ def _as_first(part: Recording, first: Recording) -> Sequence[Episode]:
     return [
         replace(e, values=e.values[:, order], observed=e.observed[:, order]) for e in part.episodes
     ]
-
-
-def _times(episode: Episode, rate_hz: float | None) -> Float[ndarray, " T"] | None:
-    if episode.times is None and rate_hz is not None:
-        return np.arange(len(episode.values)) / rate_hz
-    return episode.times

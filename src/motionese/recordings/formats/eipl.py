@@ -41,8 +41,7 @@ def read(path: Path) -> Recording:
         channels = names
         prefix = "" if part == path else f"{part.name}/"
         for i, values in enumerate(rows):
-            kept = np.array(values[: _length(values)])
-            episodes.append(Episode(f"{prefix}{i}", None, kept, np.ones(kept.shape, dtype=bool)))
+            episodes.append(Episode.whole(f"{prefix}{i}", np.array(values[: _length(values)])))
     assert channels is not None
     ranges = _ranges(path, [c for c in channels if c.startswith("joint_")])
     return Recording(path, channels, ("",) * len(channels), ranges, None, tuple(episodes), channels)
@@ -57,19 +56,13 @@ def write(path: Path, recording: Recording) -> None:
         RecordingError: Gaps or uneven times, which EIPL cannot hold, or `path` exists already.
     """
     check_even_and_whole(path, recording, "an EIPL folder")
-    longest = max(len(e.values) for e in recording.episodes)
-    joints = np.stack(
-        [
-            np.pad(e.values, ((0, longest - len(e.values)), (0, 0)), mode="edge")
-            for e in recording.episodes
-        ]
-    ).astype(np.float32)
-    given = [recording.ranges.get(c) for c in recording.channels]
-    low = joints.min(axis=(0, 1))
-    high = joints.max(axis=(0, 1))
-    bounds = np.array(
-        [r or (lo, hi) for r, lo, hi in zip(given, low, high, strict=True)], dtype=np.float32
-    ).T
+    values = [e.values for e in recording.episodes]
+    longest = max(map(len, values))
+    padded = [np.pad(e, ((0, longest - len(e)), (0, 0)), mode="edge") for e in values]
+    joints = np.stack(padded).astype(np.float32)
+    extremes = zip(joints.min(axis=(0, 1)), joints.max(axis=(0, 1)), strict=True)
+    ranges = [recording.ranges.get(c, e) for c, e in zip(recording.channels, extremes, strict=True)]
+    bounds = np.array(ranges, dtype=np.float32).T
     with new_folder(path) as folder:
         np.save(folder / JOINTS, joints)
         np.save(folder / BOUNDS, bounds)

@@ -10,6 +10,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +18,13 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import RecordingError, needs
+from motionese.errors import RecordingError
 from motionese.recordings.formats.conventions import (
     WIDEST,
+    imported,
     is_bookkeeping,
     natural,
+    strings,
     times_unless_even,
 )
 from motionese.recordings.formats.mcap_writing import METADATA_KEY, TopicMetadata, write
@@ -127,20 +130,16 @@ def _read_tape(file: Path) -> _Tape:
 
 def _records(file: Path) -> Iterator[Any]:
     """Yield channels and messages in the file's order."""
-    try:
-        from mcap.records import Channel, Message  # noqa: PLC0415
-        from mcap.stream_reader import StreamReader  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("mcap", "mcap", "reading MCAP") from error
-    count = 0
+    stream_reader = imported("mcap.stream_reader", "mcap", "reading MCAP")
+    records, count = import_module("mcap.records"), 0
     try:
         with file.open("rb") as stream:
             size = file.stat().st_size
             # No record is longer than its file: a damaged length must not fill the memory.
-            reader = StreamReader(stream, validate_crcs=True, record_size_limit=size)
+            reader = stream_reader.StreamReader(stream, validate_crcs=True, record_size_limit=size)
             for record in reader.records:
-                if isinstance(record, Channel | Message):
-                    count += isinstance(record, Message)
+                if isinstance(record, records.Channel | records.Message):
+                    count += isinstance(record, records.Message)
                     yield record
     except Exception as error:
         # What the parser and its decompressors raise depends on which byte is damaged.
@@ -199,7 +198,6 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
     )
 
 
-def _labels(names: Any) -> list[str] | None:
-    if isinstance(names, list) and all(isinstance(n, str) for n in names):
-        return names if len(set(names)) == len(names) else None
-    return None
+def _labels(names: Any) -> tuple[str, ...] | None:
+    labels = strings(names)
+    return labels if labels and len(set(labels)) == len(labels) else None

@@ -12,8 +12,8 @@ from jaxtyping import Int
 from numpy import ndarray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.conventions import fault
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import fault, imported
 from motionese.recordings.formats.writing import new_folder, write_file
 from motionese.recordings.recording import Episode, Recording
 
@@ -79,10 +79,7 @@ def write(path: Path, recording: Recording) -> None:
 
 
 def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
-    try:
-        from mcap.writer import Writer  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("mcap", "mcap", "writing MCAP") from error
+    mcap = imported("mcap.writer", "mcap", "writing MCAP")
     _check_finite(path, episode, recording.channels)
     stamps = _stamps(path, episode, recording.rate_hz)
     properties = {
@@ -97,7 +94,7 @@ def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
         rate_hz=recording.rate_hz,
     )
     content = BytesIO()
-    writer = Writer(content)
+    writer = mcap.Writer(content)
     writer.start(profile="", library="motionese")
     topic = writer.register_channel(
         topic=TOPIC,
@@ -128,13 +125,10 @@ def _stamps(path: Path, episode: Episode, rate_hz: float | None) -> Int[ndarray,
     where = f"{path}: episode '{episode.name}'"
     if not len(episode.values):
         raise RecordingError(f"{where} has no rows; an MCAP file needs at least one")
-    if episode.times is not None:
-        times = episode.times - episode.times[0]
-    elif rate_hz is not None:
-        times = np.arange(len(episode.values)) / rate_hz
-    else:
+    times = episode.times_at(rate_hz)
+    if times is None:
         raise RecordingError(f"{where} has no times, and the recording no known rate")
-    stamps: Int[ndarray, " T"] = np.rint(times * 1e9).astype(np.int64)
+    stamps: Int[ndarray, " T"] = np.rint((times - times[0]) * 1e9).astype(np.int64)
     if np.any(np.diff(stamps) <= 0):
         raise RecordingError(f"{where}: its times do not rise from row to row")
     return stamps

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.conventions import WIDEST, natural, why
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import WIDEST, imported, natural, strings, why
 from motionese.recordings.formats.robomimic_damage import check_walkable
 from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.rate import FASTEST_HZ
@@ -47,10 +47,7 @@ def read(path: Path) -> Recording:
         RecordingError: Not such a file, cut short, or datasets that do not fit together.
         MissingPackageError: h5py is not installed.
     """
-    try:
-        import h5py  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("h5py", "hdf5", "reading robomimic's HDF5") from error
+    h5py = imported("h5py", "hdf5", "reading robomimic's HDF5")
     check_walkable(path)
     try:
         with h5py.File(path, "r") as file:
@@ -72,10 +69,7 @@ def write(path: Path, recording: Recording) -> None:
         RecordingError: Gaps or uneven times, which robomimic cannot hold.
         MissingPackageError: h5py is not installed.
     """
-    try:
-        import h5py  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("h5py", "hdf5", "writing robomimic's HDF5") from error
+    h5py = imported("h5py", "hdf5", "writing robomimic's HDF5")
     check_even_and_whole(path, recording, "robomimic's HDF5")
     content = BytesIO()
     with h5py.File(content, "w") as file:
@@ -123,14 +117,11 @@ def _columns(demo: Any) -> Iterator[_Columns]:
         dataset = demo[name]
         if not _is_table(dataset) or DERIVED in dataset.attrs:
             continue
-        label = name.removeprefix("obs/")
         width = 1 if dataset.ndim == 1 else dataset.shape[1]
+        named, units = (strings(_json(dataset.attrs.get(a)), width) for a in ("names", "units"))
+        label = name.removeprefix("obs/")
         plain = (label,) if dataset.ndim == 1 else tuple(f"{label}_{i}" for i in range(width))
-        yield _Columns(
-            name,
-            _told(dataset, "names", width) or plain,
-            _told(dataset, "units", width) or ("",) * width,
-        )
+        yield _Columns(name, named or plain, units or ("",) * width)
 
 
 def _is_group(item: Any) -> bool:
@@ -141,13 +132,6 @@ def _is_table(item: Any) -> bool:
     if not hasattr(item, "dtype") or item.dtype.kind != "f":
         return False
     return bool(item.ndim == 1 or (item.ndim == 2 and 0 < item.shape[1] <= WIDEST))
-
-
-def _told(dataset: Any, attribute: str, width: int) -> tuple[str, ...] | None:
-    told = _json(dataset.attrs.get(attribute))
-    if isinstance(told, list) and len(told) == width and all(isinstance(t, str) for t in told):
-        return tuple(told)
-    return None
 
 
 def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
@@ -174,12 +158,7 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     tables = [np.asarray(demo[c.dataset][()]).reshape(-1, len(c.names)) for c in columns]
     values = np.concatenate(tables, axis=1, dtype=np.float64)
     name = demo.attrs.get("name")
-    return Episode(
-        name=name if isinstance(name, str) else own_name,
-        times=None,
-        values=values,
-        observed=np.ones(values.shape, dtype=bool),
-    )
+    return Episode.whole(name if isinstance(name, str) else own_name, values)
 
 
 def _usual(columns: tuple[_Columns, ...]) -> tuple[str, ...]:
