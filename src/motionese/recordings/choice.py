@@ -94,16 +94,11 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
     units = {c: recording.units[i] for c, i in zip(kept, columns, strict=True)}
     for pattern, unit in choice.units.items():
         units |= dict.fromkeys(matching(recording, pattern, kept), unit)
-    episodes = tuple(
-        replace(e, values=e.values[:, columns], observed=e.observed[:, columns])
-        for e in recording.episodes
-    )
     return replace(
-        recording,
+        recording.map(lambda e: e.part(columns=columns)),
         channels=kept,
         units=tuple(units.values()),
         ranges={c: r for c, r in recording.ranges.items() if c in kept},
-        episodes=episodes,
         usual=kept,
     )
 

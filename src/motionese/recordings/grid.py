@@ -28,13 +28,14 @@ def even(recording: Recording, rate_hz: float) -> Recording:
     Raises:
         RecordingError: The times of an episode span far more rows than it has.
     """
-    episodes = []
-    for episode in recording.episodes:
-        placed = episode
+
+    def on_grid(episode: Episode) -> Episode:
         if episode.times is not None and len(episode.times) > 1:
-            placed = _on_grid(recording, episode, (episode.times - episode.times[0]) * rate_hz)
-        episodes.append(replace(placed, times=None))
-    return replace(recording, rate_hz=rate_hz, episodes=tuple(episodes))
+            at = (episode.times - episode.times[0]) * rate_hz
+            episode = _on_grid(recording, episode, at)
+        return replace(episode, times=None)
+
+    return replace(recording.map(on_grid), rate_hz=rate_hz)
 
 
 def resampled(recording: Recording, rate_hz: float) -> Recording:
@@ -56,8 +57,8 @@ def resampled(recording: Recording, rate_hz: float) -> Recording:
             f"{recording.source}: recorded at {recording.rate_hz:g} Hz, it cannot be "
             f"resampled to {rate_hz:g} Hz, more than {FASTER} times as much"
         )
-    episodes = tuple(_resampled(e, step) if len(e.values) else e for e in recording.episodes)
-    return replace(recording, rate_hz=rate_hz, episodes=episodes)
+    changed = recording.map(lambda e: _resampled(e, step) if len(e.values) else e)
+    return replace(changed, rate_hz=rate_hz)
 
 
 def _on_grid(recording: Recording, episode: Episode, at: Float[ndarray, " T"]) -> Episode:

@@ -43,22 +43,16 @@ def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
     Raises:
         MotionError: An infinite value, or a NaN that is no gap.
     """
-    episodes = []
-    for episode in recording.episodes:
-        observed = episode.observed
-        if nan_is_gap:
-            observed = observed & ~np.isnan(episode.values)
-        wrong = np.argwhere(observed & ~(np.abs(episode.values) <= LARGEST))
-        if len(wrong):
-            row, column = wrong[0]
-            value = episode.values[row, column]
-            raise MotionError(
-                f"{recording.source}: episode '{episode.name}', row {row}, "
-                f"channel '{recording.channels[column]}': values must be finite, got {value:g}"
-                + ("; --nan gap takes NaN as not observed" if np.isnan(value) else "")
-            )
-        episodes.append(replace(episode, observed=observed))
-    return replace(recording, episodes=tuple(episodes))
+    if nan_is_gap:
+        recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
+    wrong = recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST))
+    if wrong is not None:
+        where, value = wrong
+        hint = "; --nan gap takes NaN as not observed" if np.isnan(value) else ""
+        raise MotionError(
+            f"{recording.source}: {where}: values must be finite, got {value:g}{hint}"
+        )
+    return recording
 
 
 def trimmed(
@@ -71,23 +65,20 @@ def trimmed(
     is still throughout has no ends, and is kept whole.
     """
     widths = np.array([ranges[c][1] - ranges[c][0] for c in recording.channels])
-    episodes = []
-    for episode in recording.episodes:
+
+    def without_ends(episode: Episode) -> Episode:
         start, end = still_ends(episode, share * widths)
-        rows = slice(start, len(episode.values) - end)
-        if rows.stop - rows.start < 2:
-            rows = slice(None)
-        episodes.append(
-            replace(episode, values=episode.values[rows], observed=episode.observed[rows])
-        )
-    return replace(recording, episodes=tuple(episodes))
+        stop = len(episode.values) - end
+        return episode.part(slice(start, stop)) if stop - start >= 2 else episode
+
+    return recording.map(without_ends)
 
 
 def still_ends(episode: Episode, limits: Float[ndarray, " D"]) -> tuple[int, int]:
     """Return how many rows at the start and at the end can be cut, one still row being kept."""
-    return _still_rows(episode.values, episode.observed, limits), _still_rows(
-        episode.values[::-1], episode.observed[::-1], limits
-    )
+    values, observed = episode.values, episode.observed
+    at_end = _still_rows(values[::-1], observed[::-1], limits)
+    return _still_rows(values, observed, limits), at_end
 
 
 def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[float, float]:

@@ -1,6 +1,7 @@
 """What is in a recording, in numbers, whatever is wrong with it: what a user looks at first."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -101,46 +102,38 @@ class Survey:
 @np.errstate(over="ignore", invalid="ignore")
 def survey(recording: Recording) -> Survey:
     """Return the numbers of a recording as it was read, before anything is refused or mended."""
-    seen = [e.observed & np.isfinite(e.values) for e in recording.episodes]
-    values = np.concatenate([e.values for e in recording.episodes])
-    finite = np.concatenate(seen)
-    low = np.where(finite, values, np.inf).min(axis=0, initial=np.inf)
-    high = np.where(finite, values, -np.inf).max(axis=0, initial=-np.inf)
+    episodes = recording.episodes
+    values, observed, seen, steps = (
+        np.concatenate([of(e) for e in episodes])
+        for of in (attrgetter("values"), attrgetter("observed"), _seen, _steps)
+    )
+    low = np.where(seen, values, np.inf).min(axis=0, initial=np.inf)
+    high = np.where(seen, values, -np.inf).max(axis=0, initial=-np.inf)
     widths = np.where(low <= high, high, 0.0) - np.where(low <= high, low, 0.0)
-    usual = [c in recording.usual for c in recording.channels]
-    rising = [
-        e.times
-        for e in recording.episodes
-        if e.times is not None and np.isfinite(e.times).all() and (np.diff(e.times) > 0).all()
-    ]
+    usual = [i for i, c in enumerate(recording.channels) if c in recording.usual]
+    times = [e.times for e in episodes if e.times is not None]
+    rising = [t for t in times if np.isfinite(t).all() and (np.diff(t) > 0).all()]
     rate = recording.rate_hz if recording.rate_hz is not None else rate_of_times(rising)
     return Survey(
         recording.source,
         rate,
         _jitter(rising, rate),
+        tuple(_episode(e, widths, usual, rate) for e in episodes),
         tuple(
-            _episode(e, s, widths, np.array(usual), rate)
-            for e, s in zip(recording.episodes, seen, strict=True)
-        ),
-        tuple(
-            _channel(recording, column, seen, (low[column], high[column]))
-            for column in range(len(recording.channels))
+            _channel(recording, i, values[:, i], observed[:, i], steps[:, i], (low[i], high[i]))
+            for i in range(len(recording.channels))
         ),
     )
 
 
 def _episode(
-    episode: Episode,
-    seen: Bool[ndarray, "T D"],
-    widths: Float[ndarray, " D"],
-    usual: Bool[ndarray, " D"],
-    rate: float | None,
+    episode: Episode, widths: Float[ndarray, " D"], usual: list[int], rate: float | None
 ) -> EpisodeNumbers:
-    values, rows, times = episode.values[:, usual], len(episode.values), episode.times
-    steps = _steps(values, seen[:, usual])
-    still = ~(steps > STILL_STEP * widths[usual]).any(axis=1)
-    shown = Episode(episode.name, None, values, seen[:, usual])
-    start, end = still_ends(shown, STILL_END * widths[usual]) if usual.any() else (0, 0)
+    rows, times = len(episode.values), episode.times
+    shown = episode.part(columns=usual)
+    shown = replace(shown, observed=_seen(shown))
+    still = np.all(~(_steps(shown) > STILL_STEP * widths[usual]), axis=1)
+    start, end = still_ends(shown, STILL_END * widths[usual]) if usual else (0, 0)
     duration = None
     if times is not None and rows:
         duration = float(times[-1] - times[0])
@@ -163,18 +156,12 @@ def _episode(
 def _channel(
     recording: Recording,
     column: int,
-    seen: list[Bool[ndarray, "_ D"]],
+    values: Float[ndarray, " N"],
+    observed: Bool[ndarray, " N"],
+    steps: Float[ndarray, " _"],
     extremes: tuple[float, float],
 ) -> ChannelNumbers:
     name, (low, high) = recording.channels[column], map(float, extremes)
-    values = np.concatenate([e.values[:, column] for e in recording.episodes])
-    observed = np.concatenate([e.observed[:, column] for e in recording.episodes])
-    steps = np.concatenate(
-        [
-            _steps(e.values[:, column], s[:, column])
-            for e, s in zip(recording.episodes, seen, strict=True)
-        ]
-    )
     steps = steps[~np.isnan(steps)]
     return ChannelNumbers(
         name,
@@ -191,9 +178,13 @@ def _channel(
     )
 
 
-def _steps(values: Float[ndarray, "T *D"], seen: Bool[ndarray, "T *D"]) -> Float[ndarray, "_ *D"]:
+def _seen(episode: Episode) -> Bool[ndarray, "T D"]:
+    return np.asarray(episode.observed & np.isfinite(episode.values))
+
+
+def _steps(episode: Episode) -> Float[ndarray, "_ D"]:
     """Return how far every value is from that of the row before; NaN where one is missing."""
-    return np.abs(np.diff(np.where(seen, values, np.nan), axis=0))
+    return np.asarray(np.abs(np.diff(np.where(_seen(episode), episode.values, np.nan), axis=0)))
 
 
 def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | None:

@@ -13,7 +13,7 @@ from motionese.runtime.loop_report import SENTENCES, Ending, LoopReport
 from motionese.runtime.model import Reading, RuntimeModel, row_of
 from motionese.runtime.player import Player, Share, shares
 from motionese.runtime.schedule import Part, ScheduledPart, schedule
-from motionese.runtime.timing import Clock, MonotonicClock, Once, Pace, Watchdog
+from motionese.runtime.timing import Clock, Once, Pace, Watchdog
 
 SAME_RATE = 1e-3
 """Rates that differ by no more than this share are the same."""
@@ -60,7 +60,7 @@ class ControlLoop:
     limits: Limits = field(default_factory=Limits)
     watchdog_s: float = 0.5
     stop: Callable[[], None] | None = None
-    clock: Clock = field(default_factory=MonotonicClock)
+    clock: Clock = field(default_factory=Clock)
     _asked_to_end: Event = field(default_factory=Event, init=False, repr=False)
 
     def __post_init__(self) -> None:

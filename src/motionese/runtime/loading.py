@@ -79,13 +79,15 @@ def _model(path: Path, structure: dict[str, Any], tensors: dict[str, ndarray]) -
     level = np.repeat(np.arange(len(sizes)), sizes)
     wired = np.abs(level[:, None] - level[None, :]) <= 1
     initial = dict(zip(names, held["initial_states"], strict=True))
+    told = facts.get("lengths")
+    lengths = {} if told is None else dict(zip(names, map(int, told), strict=True))
     return RuntimeModel(
         weights=_fixed(held["weights"] * wired),
         bias=_fixed(held["bias"]),
         tau=_fixed(held["tau"]),
         rate_hz=_rate(path, facts.get("rate_hz")),
         initial_states=MappingProxyType(initial),
-        lengths=MappingProxyType(_lengths(names, facts.get("lengths"))),
+        lengths=MappingProxyType(lengths),
         senses_first={"sensed": True, "zero": False}[structure["initial_io"]],
         **_channels(path, structure["channels"], sizes[0]),
     )
@@ -116,12 +118,6 @@ def _rate(path: Path, rate_hz: Any) -> float | None:
     if not 0 < (rate := float(rate_hz)) < np.inf:
         raise StorageError(f"{path}: its rate must be finite and > 0 Hz, got {rate_hz}")
     return rate
-
-
-def _lengths(names: list[str], lengths: Any) -> dict[str, int]:
-    if lengths is None:
-        return {}
-    return {name: int(rows) for name, rows in zip(names, lengths, strict=True)}
 
 
 def _channels(path: Path, channels: Any, width: int) -> dict[str, Any]:

@@ -5,27 +5,13 @@ import time
 from collections.abc import Callable
 from threading import Event, Lock, Thread
 from types import TracebackType
-from typing import Protocol, runtime_checkable
 
 SPIN_S = 0.0005
 """How long before its time a sleeper wakes, to wait the rest awake: sleep alone is 0.1 ms late."""
 
 
-@runtime_checkable
-class Clock(Protocol):
-    """What a control loop asks of its clock."""
-
-    def now(self) -> float:
-        """Return the time [s] since some fixed moment."""
-        ...
-
-    def sleep_until(self, moment: float) -> None:
-        """Return at that time [s], or at once if it has passed."""
-        ...
-
-
-class MonotonicClock:
-    """The machine's monotonic clock."""
+class Clock:
+    """The machine's monotonic clock; one that is to be another takes its place as a subclass."""
 
     def now(self) -> float:
         """Return the time [s] since some fixed moment."""

@@ -187,6 +187,4 @@ def _as_first(part: Recording, first: Recording) -> Sequence[Episode]:
                 f"{part.source}: channel '{name}' is in [{here}], "
                 f"in {first.source.name} it is in [{was}]"
             )
-    return [
-        replace(e, values=e.values[:, order], observed=e.observed[:, order]) for e in part.episodes
-    ]
+    return part.map(lambda e: e.part(columns=order)).episodes

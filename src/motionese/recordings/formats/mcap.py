@@ -39,7 +39,7 @@ class _Tape:
     """What one file holds: numbers by channel and log time [ns]."""
 
     file: Path
-    told: TopicMetadata | None = None
+    metadata: TopicMetadata | None = None
     samples: dict[str, dict[int, float]] = field(default_factory=dict)
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
@@ -62,9 +62,10 @@ def read(path: Path) -> Recording:
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
     tapes = [_read_tape(file) for file in files]
-    named = [name for t in tapes for name in (*(t.told.channels if t.told else ()), *t.samples)]
+    named = [n for t in tapes for n in (*(t.metadata.channels if t.metadata else ()), *t.samples)]
     channels = tuple(dict.fromkeys(named))
-    units = {name: unit for t in tapes if t.told for name, unit in t.told.named_units()}
+    told = [t.metadata for t in tapes if t.metadata]
+    units = {name: unit for m in told for name, unit in zip(m.channels, m.units, strict=False)}
     bookkeeping = set.union(*(t.bookkeeping for t in tapes))
     return Recording(
         source=path,
@@ -84,7 +85,8 @@ def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
     lists of that length: `.position.elbow`. Truth values, text and null are no numbers.
     """
     if isinstance(value, dict):
-        labels = _labels(value.get("name"))
+        labels = strings(value.get("name")) or ()
+        labels = labels if len(set(labels)) == len(labels) else ()
         for key, part in value.items():
             if labels and isinstance(part, list) and len(part) == len(labels):
                 for label, item in zip(labels, part, strict=True):
@@ -107,7 +109,7 @@ def _read_tape(file: Path) -> _Tape:
             topics[record.id] = record
             tape.encodings.add(record.message_encoding)
             if METADATA_KEY in record.metadata:
-                tape.told = TopicMetadata.read(file, record.metadata[METADATA_KEY])
+                tape.metadata = TopicMetadata.read(file, record.metadata[METADATA_KEY])
         elif hasattr(record, "channel_id"):
             topic = topics.get(record.channel_id)
             if topic is None or topic.message_encoding != "json":
@@ -164,7 +166,7 @@ def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) ->
 
 def _rate(tapes: list[_Tape]) -> float | None:
     """Return the rate [Hz] that all files tell, or that of the topic with the most messages."""
-    told = {t.told.rate_hz if t.told else None for t in tapes}
+    told = {t.metadata.rate_hz if t.metadata else None for t in tapes}
     if len(told) == 1 and None not in told:
         return told.pop()
     count = Counter[str]()
@@ -189,15 +191,10 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
         rows = [row_at[stamp] for stamp in samples]
         values[rows, column] = list(samples.values())
         observed[rows, column] = True
-    rate_told = tape.told.rate_hz if tape.told else None
+    rate_told = tape.metadata.rate_hz if tape.metadata else None
     return Episode(
-        name=tape.told.episode if tape.told else tape.file.stem,
+        name=tape.metadata.episode if tape.metadata else tape.file.stem,
         times=times_unless_even(_since_first(stamps), rate_told),
         values=values,
         observed=observed,
     )
-
-
-def _labels(names: Any) -> tuple[str, ...] | None:
-    labels = strings(names)
-    return labels if labels and len(set(labels)) == len(labels) else None

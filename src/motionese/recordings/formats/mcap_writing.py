@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import Annotated, Literal
@@ -35,10 +34,6 @@ class TopicMetadata(BaseModel):
     units: tuple[str, ...]
     rate_hz: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None
 
-    def named_units(self) -> Iterator[tuple[str, str]]:
-        """Yield every channel with its unit."""
-        return zip(self.channels, self.units, strict=False)
-
     @classmethod
     def read(cls, file: Path, text: str) -> "TopicMetadata":
         """Read the metadata's text; `RecordingError` where it is of no version that is read."""
@@ -62,6 +57,8 @@ def write(path: Path, recording: Recording) -> None:
             JSON cannot hold, or a folder that exists.
         MissingPackageError: mcap is not installed.
     """
+    if wrong := recording.first(lambda e: e.observed & ~np.isfinite(e.values)):
+        raise RecordingError(f"{path}: {wrong[0]}: JSON cannot hold {wrong[1]}")
     if path.suffix.lower() != ".mcap":
         contents = [_content(path, episode, recording) for episode in recording.episodes]
         with new_folder(path) as folder:
@@ -80,19 +77,14 @@ def write(path: Path, recording: Recording) -> None:
 
 def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
     mcap = imported("mcap.writer", "mcap", "writing MCAP")
-    _check_finite(path, episode, recording.channels)
-    stamps = _stamps(path, episode, recording.rate_hz)
+    channels, units, rate = recording.channels, recording.units, recording.rate_hz
+    stamps = _stamps(path, episode, rate)
     properties = {
         name: {"type": "number", **({"description": f"[{unit}]"} if unit else {})}
-        for name, unit in zip(recording.channels, recording.units, strict=True)
+        for name, unit in zip(channels, units, strict=True)
     }
     schema = json.dumps({"type": "object", "properties": properties})
-    told = TopicMetadata(
-        episode=episode.name,
-        channels=recording.channels,
-        units=recording.units,
-        rate_hz=recording.rate_hz,
-    )
+    told = TopicMetadata(episode=episode.name, channels=channels, units=units, rate_hz=rate)
     content = BytesIO()
     writer = mcap.Writer(content)
     writer.start(profile="", library="motionese")
@@ -103,21 +95,11 @@ def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
         metadata={METADATA_KEY: told.model_dump_json()},
     )
     for row, stamp in enumerate(stamps.tolist()):
-        cells = zip(recording.channels, episode.values[row], episode.observed[row], strict=True)
+        cells = zip(channels, episode.values[row], episode.observed[row], strict=True)
         message = {name: float(value) for name, value, seen in cells if seen}
         writer.add_message(topic, stamp, json.dumps(message).encode(), stamp, row)
     writer.finish()
     return content.getvalue()
-
-
-def _check_finite(path: Path, episode: Episode, channels: tuple[str, ...]) -> None:
-    wrong = np.argwhere(episode.observed & ~np.isfinite(episode.values))
-    if len(wrong):
-        row, column = wrong[0]
-        raise RecordingError(
-            f"{path}: episode '{episode.name}', row {row}, channel '{channels[column]}': "
-            f"JSON cannot hold {episode.values[row, column]}"
-        )
 
 
 def _stamps(path: Path, episode: Episode, rate_hz: float | None) -> Int[ndarray, " T"]:

@@ -55,17 +55,15 @@ def check_even_and_whole(path: Path, recording: Recording, what: str) -> None:
     Raises:
         RecordingError: An episode is empty, has gaps, or is not evenly spaced at the rate.
     """
+    if gap := recording.first(lambda e: ~(e.observed & np.isfinite(e.values))):
+        raise RecordingError(
+            f"{path}: {gap[0]}: nothing observed, and {what} cannot hold gaps; "
+            "csv, npz and mcap can"
+        )
     for episode in recording.episodes:
         where = f"{path}: episode '{episode.name}'"
         if not len(episode.values):
             raise RecordingError(f"{where} has no rows; {what} needs at least one")
-        gaps = np.argwhere(~(episode.observed & np.isfinite(episode.values)))
-        if len(gaps):
-            row, column = gaps[0]
-            raise RecordingError(
-                f"{where}, row {row}, channel '{recording.channels[column]}': nothing observed, "
-                f"and {what} cannot hold gaps; csv, npz and mcap can"
-            )
         times, rate = episode.times, recording.rate_hz
         if times is not None and times_unless_even(times, rate) is not None:
             at = "at a known rate" if rate is None else f"at {rate:g} Hz"
