@@ -80,11 +80,10 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
     Raises:
         ChannelError: A name or pattern that fits no channel, or no channel that is left.
     """
-    everything = recording.channels
-    taken = recording.usual
+    everything, taken = recording.channels, recording.usual
     if choice.channels is not None:
-        taken = _all_matching(recording, choice.channels, everything)
-    dropped = _all_matching(recording, choice.exclude, everything)
+        taken = matching(recording, choice.channels, everything)
+    dropped = matching(recording, choice.exclude, everything)
     kept = tuple(c for c in taken if c not in dropped)
     if not kept:
         raise ChannelError(
@@ -93,7 +92,7 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
     columns = [everything.index(c) for c in kept]
     units = {c: recording.units[i] for c, i in zip(kept, columns, strict=True)}
     for pattern, unit in choice.units.items():
-        units |= dict.fromkeys(matching(recording, pattern, kept), unit)
+        units |= dict.fromkeys(matching(recording, [pattern], kept), unit)
     return replace(
         recording.map(lambda e: e.part(columns=columns)),
         channels=kept,
@@ -103,18 +102,15 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
     )
 
 
-def matching(recording: Recording, pattern: str, names: Iterable[str]) -> tuple[str, ...]:
-    """Return the channels of this name, or else those that fit the pattern; at least one."""
-    known = tuple(names)
-    # A name first: those of messages hold brackets, as in "/joints.position[0]".
-    found = (pattern,) if pattern in known else tuple(n for n in known if fnmatchcase(n, pattern))
-    if not found:
-        raise ChannelError(f"{recording.source}: {unknown('channel', pattern, known)}")
-    return found
-
-
-def _all_matching(
+def matching(
     recording: Recording, patterns: Iterable[str], names: tuple[str, ...]
 ) -> tuple[str, ...]:
-    found = [name for pattern in patterns for name in matching(recording, pattern, names)]
-    return tuple(dict.fromkeys(found))
+    """Return the channels of these names, or else those that fit the patterns, one or more each."""
+    found: dict[str, None] = {}
+    for pattern in patterns:
+        # A name first: those of messages hold brackets, as in "/joints.position[0]".
+        fits = [pattern] if pattern in names else [n for n in names if fnmatchcase(n, pattern)]
+        if not fits:
+            raise ChannelError(f"{recording.source}: {unknown('channel', pattern, names)}")
+        found |= dict.fromkeys(fits)
+    return tuple(found)

@@ -102,7 +102,7 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     """
     ranges = dict(recording.ranges)
     for pattern, limits in choice.ranges.items():
-        ranges |= dict.fromkeys(matching(recording, pattern, recording.channels), limits)
+        ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)
     for column, name in enumerate(recording.channels):
         if name not in ranges:
             seen = [e.values[e.observed[:, column], column] for e in recording.episodes]

@@ -119,7 +119,10 @@ class Player:
         if self._former is not None:
             self._blended += 1
             weight = minimum_jerk(self._blended / self._blend)
-            row = (1 - weight) * self._former_row(self._former, sensed) + weight * row
+            former = self._former
+            if isinstance(former, State):
+                former = self._moved(former, sensed)
+            row = (1 - weight) * former + weight * row
         if self._coming is not None:
             u, steps = self._coming
             self._blend = steps(self._model.from_unit(row)) if callable(steps) else steps
@@ -129,9 +132,6 @@ class Player:
             self._former = None
         self._row = row
         return self.row
-
-    def _former_row(self, former: State | ndarray, sensed: ndarray) -> ndarray:
-        return former if isinstance(former, np.ndarray) else self._moved(former, sensed)
 
     def _moved(self, state: State, sensed: ndarray) -> ndarray:
         """Move a state on; its row [D] in the unit interval, an array of its own."""

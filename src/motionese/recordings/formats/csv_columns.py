@@ -14,14 +14,8 @@ from motionese.recordings.formats.conventions import is_bookkeeping
 from motionese.recordings.formats.csv_table import Table, floats, is_number, plain
 
 EPISODE = (
-    "episode",
-    "episode_index",
-    "episode_id",
-    "trial",
-    "demo",
-    "demonstration",
-    "sequence",
-    "motion",
+    *("episode", "episode_index", "episode_id"),
+    *("trial", "demo", "demonstration", "sequence", "motion"),
 )
 SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
 """How long one of each unit of time is [s]."""
@@ -74,12 +68,6 @@ def is_measured(name: str) -> bool:
     return name.casefold() not in COUNTERS and not is_bookkeeping(name)
 
 
-def seconds(name: str) -> float | None:
-    """Return the unit of a column of times [s], from "t [ms]" or "time_ms", if it tells one."""
-    bare, unit = split_unit(name)
-    return SECONDS.get(unit or bare.rpartition("_")[2].casefold())
-
-
 def split_unit(name: str) -> tuple[str, str]:
     """Return the name and the unit of "shoulder [rad]" or "shoulder (rad)"; empty where none is.
 
@@ -130,8 +118,9 @@ def times(table: Table, column: int) -> Float[ndarray, " T"]:
     """
     name, found = table.header[column], numbers(table, column)
     if found is not None:
-        unit = seconds(name)
-        return found[0] * (_unit_shown(found[0]) if unit is None else unit)
+        bare, unit = split_unit(name)
+        told = SECONDS.get(unit or bare.rpartition("_")[2].casefold())
+        return found[0] * (_unit_shown(found[0]) if told is None else told)
     dates = _dates(table.columns[column])
     if dates is None:
         raise RecordingError(

@@ -29,20 +29,17 @@ def read(path: Path) -> Recording:
     parts = [p for p in (path, path / "train", path / "test") if (p / JOINTS).is_file()]
     if not parts:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
-    channels: tuple[str, ...] | None = None
-    episodes: list[Episode] = []
-    for part in parts:
-        names, rows = _part(part)
-        if channels is not None and names != channels:
+    contents = [(part, *_part(part)) for part in parts]
+    channels, episodes = contents[0][1], []
+    for part, names, rows in contents:
+        if names != channels:
             raise RecordingError(
                 f"{part}: its channels are {', '.join(names)}; "
                 f"in {parts[0].name} they are {', '.join(channels)}"
             )
-        channels = names
         prefix = "" if part == path else f"{part.name}/"
         for i, values in enumerate(rows):
             episodes.append(Episode.whole(f"{prefix}{i}", np.array(values[: _length(values)])))
-    assert channels is not None
     ranges = _ranges(path, [c for c in channels if c.startswith("joint_")])
     return Recording(path, channels, ("",) * len(channels), ranges, None, tuple(episodes), channels)
 

@@ -135,11 +135,10 @@ def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarra
 
 def _check_totals(path: Path, info: Info, rows: _Rows) -> None:
     found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
-    told = {"total_frames": info.total_frames, "total_episodes": info.total_episodes}
     for key, count in found.items():
-        if told[key] not in {None, count}:
+        if (told := getattr(info, key)) not in {None, count}:
             raise RecordingError(
-                f"{path}: meta/info.json tells {told[key]} {key}, the files in data hold {count}; "
+                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
                 f"is the download complete?"
             )
 
