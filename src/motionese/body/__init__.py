@@ -3,7 +3,7 @@
 A robot is a folder of this room and a row of `BODIES`: its settings, and its class.
 """
 
-from motionese.errors import RenderingError, SettingError
+from motionese.errors import RenderingError, SettingError, needs
 
 try:
     import mujoco
@@ -13,10 +13,15 @@ except AttributeError as fault:
         "MuJoCo cannot load the GL library that the environment variable MUJOCO_GL asks for; "
         "unset it, or install libegl1 and libgl1 (Debian, Ubuntu)"
     ) from fault
+except ModuleNotFoundError as fault:
+    raise needs("mujoco-core", "experiment", "a simulated robot") from fault
 
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field
 
 from motionese.body.actroid import Actroid, ActroidSettings
+from motionese.body.desk_arm import DeskArm, DeskArmSettings
 from motionese.body.geometry import Geometry
 from motionese.body.pictures import pictures
 from motionese.body.protocol import Robot, SimulatedRobot
@@ -24,11 +29,12 @@ from motionese.body.settings import SimulationSettings
 from motionese.body.tabletop_robot import TabletopRobot
 from motionese.task import Task
 
-BodySettings = ActroidSettings
+BodySettings = Annotated[ActroidSettings | DeskArmSettings, Field(discriminator="name")]
 """The settings of any simulated robot; their `name` says of which."""
 
 BODIES: dict[str, tuple[type[SimulationSettings], type[TabletopRobot[Any]]]] = {
     "actroid": (ActroidSettings, Actroid),
+    "desk_arm": (DeskArmSettings, DeskArm),
 }
 """Every simulated robot by its name in settings: its settings and its class."""
 
@@ -62,6 +68,7 @@ __all__ = [
     "Robot",
     "SimulatedRobot",
     "SimulationSettings",
+    "TabletopRobot",
     "load_model",
     "open_body",
     "pictures",

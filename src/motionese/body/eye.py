@@ -33,7 +33,10 @@ class Eye(Protocol):
     def see(
         self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator
     ) -> Float[ndarray, "2"]:
-        """Return (u, v) [px from the view's middle; right, down] of a hand last seen at `last`."""
+        """Return (u, v) [px from the view's middle; right, down] of a hand last seen at `last`.
+
+        Both are NaN where the hand is not seen.
+        """
         ...
 
 
@@ -54,7 +57,7 @@ class ProjectedEye:
 
 
 class RenderedEye:
-    """The red blob nearest to where the marker was last seen; nothing red in view: seen as last."""
+    """The red blob nearest to where the marker was last seen; NaN while nothing red is in view."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         try:
@@ -87,7 +90,7 @@ class RenderedEye:
         _, blobs = self._cv2.threshold(redness, REDNESS, 255, self._cv2.THRESH_BINARY)
         count, _, _, middles = self._cv2.connectedComponentsWithStats(blobs)
         if count < 2:
-            return last
+            return np.full(2, np.nan)
         seen = np.array(middles[1:]) - _MIDDLE_PIXEL
         return np.array(seen[np.argmin(np.linalg.norm(seen - last, axis=-1))])
 

@@ -35,7 +35,7 @@ class Robot(Protocol):
         ...
 
     def sense(self) -> Float[ndarray, " D"]:
-        """Return the channels' values now, in the channels' units."""
+        """Return the channels' values now, in the channels' units; NaN where not observed."""
         ...
 
     def command(self, angles: Float[ndarray, " J"]) -> None:

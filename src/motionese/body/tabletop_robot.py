@@ -9,7 +9,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.body.composition import Hand
-from motionese.body.eye import ProjectedEye, open_eye
+from motionese.body.eye import Eye, ProjectedEye, open_eye
 from motionese.body.settings import PICTURES_HZ, SimulationSettings
 from motionese.body.simulation import Drive, Simulation
 from motionese.channels import Channels
@@ -59,7 +59,6 @@ class TabletopRobot(ABC, Generic[Settings]):
         self._simulation = self._simulate()
         self._eye = open_eye(self.model, settings)
         self._noiseless = ProjectedEye(self.model, noise_px=0.0)
-        self._seen = np.zeros(2)
         self._commanded = self.channels.indices(self.joints)
         self._caregiver = self._caregiver_goal = _AWAY
         self.reset(np.zeros(len(self.joints)), np.random.default_rng(0))
@@ -126,11 +125,11 @@ class TabletopRobot(ABC, Generic[Settings]):
         way = (start + share * (goal - start)).reshape(pictures, substeps, 3)
         for stretch in way:
             self._advance(stretch if moves else None)
-            self._seen = self._eye.see(self._simulation.data, self._hand, self._seen, self._rng)
+            self._look(self._eye)
         self._caregiver = goal
 
     def sense(self) -> Float[ndarray, " D"]:
-        """Return the joints' angles [rad] and the followed hand's u, v [px] now."""
+        """Return the joints' angles [rad] and the followed hand's u, v [px]; NaN if unseen."""
         return np.concatenate([self._simulation.angles, self._seen])
 
     def hand_position(self) -> Float[ndarray, "3"]:
@@ -206,12 +205,18 @@ class TabletopRobot(ABC, Generic[Settings]):
         self._hand, self._command, self._gaze, self._rng = hand, arm, gaze, rng
         self._caregiver = self._caregiver_goal = np.array(caregiver)
         self._simulation.place(arm, gaze, caregiver)
-        self._seen = np.zeros(2)
+        self._seen = self._last_seen = np.zeros(2)
         for _ in range(_SETTLING):
             self._advance(None)
-            self._seen = self._noiseless.see(self._simulation.data, hand, self._seen, rng)
-        self._seen = self._eye.see(self._simulation.data, hand, self._seen, rng)
+            self._look(self._noiseless)
+        self._look(self._eye)
 
     def _advance(self, caregiver_way: Float[ndarray, "S 3"] | None) -> None:
-        self._gaze = self.followed(self._gaze, self._seen)
+        if np.isfinite(self._seen).all():
+            self._gaze = self.followed(self._gaze, self._seen)
         self._simulation.advance(self._command, self._gaze, caregiver_way)
+
+    def _look(self, eye: Eye) -> None:
+        self._seen = eye.see(self._simulation.data, self._hand, self._last_seen, self._rng)
+        if np.isfinite(self._seen).all():
+            self._last_seen = self._seen

@@ -40,7 +40,8 @@ class Experience:
     Attributes:
         loop: The loop it was made in; 0 for babbling.
         motion: The sequence's name.
-        values: What was sensed, and commanded, in the channels' units. [T, D]
+        values: What was sensed, and commanded, in the channels' units; NaN where it was neither.
+            [T, D]
         initial_state: u_0 of all levels. [N]
         error: Root mean squared error in closed loop after training, each channel in its unit;
             NaN before. [D]
@@ -122,11 +123,12 @@ class Learner:
         return Learner(fit.network, experiences), fit
 
     def motions(self, rate_hz: float) -> Motions:
-        """Return the experiences as motions to train on."""
+        """Return the experiences as motions to train on; NaN is what was not observed."""
         return Motions.from_arrays(
             [e.values for e in self.experiences],
             self.channels,
             rate_hz,
+            observed=[np.isfinite(e.values) for e in self.experiences],
             names=[e.name for e in self.experiences],
         )
 

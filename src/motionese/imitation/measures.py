@@ -20,6 +20,8 @@ def seen_error_cm(
 ) -> float:
     """Return the mean distance [cm] of two seen hands, across the line of sight.
 
+    Rows in which one of them was out of view (NaN) do not count; NaN if these are all.
+
     Args:
         body: Whose eye sees them.
         one: The channels' values; those that tell where the hand is seen count.
@@ -27,7 +29,9 @@ def seen_error_cm(
         hand: True positions [m] of one of them, for its distance from the eye.
     """
     angles = _angle_between(body.bearing(one), body.bearing(other))
-    return float(100 * (angles * np.linalg.norm(hand - body.eye_position, axis=1)).mean())
+    apart = angles * np.linalg.norm(hand - body.eye_position, axis=1)
+    apart = apart[np.isfinite(apart)]
+    return float(100 * apart.mean()) if len(apart) else np.nan
 
 
 def _angle_between(

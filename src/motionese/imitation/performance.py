@@ -105,7 +105,7 @@ def perform(
     """
     body.reset(posture, rng)
     record = _Record(body, posture)
-    now = body.channels.to_unit(record.latest(acting.efference_copy))
+    now = record.latest(acting.efference_copy, np.full(len(body.channels), 0.5))
     state = np.array(initial_state)
     if network.initial_io == "sensed":
         state[: len(now)] = np.log(now / (1 - now))
@@ -115,13 +115,14 @@ def perform(
         state = np.asarray(
             _advance(network, jnp.asarray(state), jnp.asarray(now), jnp.asarray(share))
         )
-        prediction = body.channels.from_unit(1 / (1 + np.exp(-state[: len(now)])))
+        predicted = 1 / (1 + np.exp(-state[: len(now)]))
+        prediction = body.channels.from_unit(predicted)
         record.think(prediction, state)
         command = prediction[list(record.joints)]
         if acting.exploration:
             command = command + acting.exploration * rng.standard_normal(len(command))
         record.step(command)
-        now = body.channels.to_unit(record.latest(acting.efference_copy))
+        now = record.latest(acting.efference_copy, predicted)
         share = acting.feedback
     return record.performance()
 
@@ -172,12 +173,13 @@ class _Record:
         self.effects.append(self.body.effects())
         self.poses.append(self.body.pose())
 
-    def latest(self, efference_copy: bool) -> Float[ndarray, " D"]:
-        """Return the last row as the network takes it."""
+    def latest(self, efference_copy: bool, predicted: Float[ndarray, " D"]) -> Float[ndarray, " D"]:
+        """Return the last row in the unit interval; as predicted where nothing was observed."""
         row = self.sensed[-1].copy()
         if efference_copy:
             row[list(self.joints)] = self.commanded[-1]
-        return row
+        unit = self.body.channels.to_unit(row)
+        return np.where(np.isfinite(unit), unit, predicted)
 
     def performance(self) -> Performance:
         """Return what was recorded."""

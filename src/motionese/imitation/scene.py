@@ -83,13 +83,15 @@ class Scene:
     ) -> Motions:
         """Return what is recognised of demonstrations: all but the joints, these in the first row.
 
+        What was not observed (NaN, as where the hand was out of view) is not recognised either.
+
         Args:
             values: The channels' values of every demonstration, see `as_own`.
             own_arm: Whether the first row's joints are where the own arm will start from; if not,
                 as when a demonstration is looked at from its middle on, they are not known at all.
             names: The demonstrations' names.
         """
-        masks = [np.ones(value.shape, dtype=bool) for value in values]
+        masks = [np.isfinite(value) for value in values]
         for mask in masks:
             mask[int(own_arm) :, self.joints] = False
         return Motions.from_arrays(

@@ -4,12 +4,14 @@ from motionese.learning.batch import Batch
 from motionese.learning.fit import Fit
 from motionese.learning.found import Found
 from motionese.learning.generate import activity, generate
+from motionese.learning.model_recordings import read_for
 from motionese.learning.motions import Motions
 from motionese.learning.placed import placed
 from motionese.learning.progress import Progress
 from motionese.learning.recognise import recognise, recognise_all
 from motionese.learning.sequence import generate_sequence
 from motionese.learning.settings import Recognition, Training
+from motionese.learning.split import split
 from motionese.learning.status import Ending, Status
 from motionese.learning.storage import load, read_fit, save, write_fit
 from motionese.learning.train import train
@@ -30,9 +32,11 @@ __all__ = [
     "load",
     "placed",
     "read_fit",
+    "read_for",
     "recognise",
     "recognise_all",
     "save",
+    "split",
     "train",
     "write_fit",
 ]

@@ -19,6 +19,8 @@ def task_named(name: str) -> Task:
 
 
 __all__ = [
+    "PUSHING_BUTTONS",
+    "SHAPES",
     "TASKS",
     "Arc",
     "Attempt",

@@ -11,8 +11,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from numpy import ndarray
 
-from motionese.analysis.style import FAINT, INK, LOOKS, SETTINGS, WIDTH, finished
 from motionese.errors import StorageError
+from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
 from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
@@ -21,7 +21,7 @@ LARGEST = 1e100
 """Beyond it values are not drawn."""
 MANY = 8
 """From so many motions on, lines are thin and pale and have no names."""
-COLOURS = [look.colour for look in LOOKS.values()] + ["#009e73", "#cc79a7", "#000000"]
+COLOURS = [*(colour for hue in HUES for colour in hue), "#cc79a7", "#000000"]
 """Okabe & Ito's palette: distinguishable without colour vision."""
 
 

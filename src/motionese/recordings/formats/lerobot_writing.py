@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy import ndarray
 
 from motionese.errors import RecordingError
@@ -114,6 +113,7 @@ def _write_parquets(
     folder: Path, whole: dict[str, ndarray], episodes: list[dict[str, ndarray]]
 ) -> None:
     pa = imported("pyarrow", "lerobot", "writing a LeRobotDataset")
+    pd = imported("pandas", "lerobot", "writing a LeRobotDataset")
     parquet = import_module("pyarrow.parquet")
     data = {key: pa.array(v) for key, v in whole.items() if v.ndim == 1}
     for key in (STATE, ACTION):

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-import pandas as pd
 from jaxtyping import Bool, Float
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -11,56 +10,55 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from numpy import ndarray
 
+from motionese.analysis.collected import Collected
 from motionese.analysis.directions import WITHIN, following
-from motionese.analysis.style import ASTRAY, FAINT, LOOKS, WIDTH
-from motionese.experiment.conditions import Condition
+from motionese.analysis.map_numbers import level_names
+from motionese.analysis.style import ASTRAY
+from motionese.figure_style import FAINT, WIDTH
 
 HEAD = np.radians(150)
 """The barbs of an arrow point back by this angle."""
 
 
-def slow_state_map(
-    points: pd.DataFrame,
-    shown: Mapping[Condition, int],
-    strokes: Mapping[str, tuple[float, float]],
-    segment: int,
-) -> Figure:
+def slow_state_map(collected: Collected, shown: Mapping[str, int], segment: int) -> Figure:
     """Draw the map of one seed a condition: a row per condition, a column per primitive.
 
+    An arrow is as long as a grid cell where the hand goes as far as the stroke is long.
+
     Args:
-        points: All points of all maps.
+        collected: The runs.
         shown: The seed that is shown of each condition.
-        strokes: Every primitive's true direction [rad] and extent [rad]; an arrow is as long as a
-            grid cell where the hand goes as far as that.
-        segment: 1 for the primitive whose Cf_0 is held, 2 for what follows it.
+        segment: 1 for the primitive whose state is held, 2 for what follows it.
     """
-    names = list(strokes)
+    points, strokes = collected.slow_state_map, collected.strokes
+    below, top = (name.capitalize() for name in level_names(collected.study))
     figure = Figure(figsize=(WIDTH, 0.6 + 1.76 * len(shown)))
-    panels = figure.subplots(len(shown), len(names), sharex=True, sharey=True, squeeze=False)
+    panels = figure.subplots(len(shown), len(strokes), sharex=True, sharey=True, squeeze=False)
     for row, (condition, seed) in zip(panels, shown.items(), strict=True):
-        own = points[(points["condition"] == condition.name) & (points["seed"] == seed)]
-        for axes, name in zip(row, names, strict=True):
-            right = (name,) if segment == 1 else following(name)
-            _panel(axes, own[own["primitive"] == name], segment, [strokes[r] for r in right],
-                   LOOKS[condition.name].colour)  # fmt: skip
-        row[0].set_ylabel(f"{condition.name}\nCs₀, second unit")
-    for axes, name in zip(panels[0], names, strict=True):
-        axes.set_title(f"Cf₀ of {name}", loc="center")
+        own = points[(points["condition"] == condition) & (points["seed"] == seed)]
+        for axes, name in zip(row, strokes, strict=True):
+            right = (name,) if segment == 1 else following(collected.task, name)
+            of = own[own["primitive"] == name]
+            grid = of[[f"{top.lower()}_1", f"{top.lower()}_2"]].to_numpy(dtype=np.float64)
+            ways = of[[f"direction_{segment}_rad", f"extent_{segment}_rad"]].to_numpy(np.float64)
+            colour = collected.looks[condition].colour
+            _panel(axes, grid, ways, [strokes[r] for r in right], colour)
+        row[0].set_ylabel(f"{condition}\n{top}₀, second unit")
+    for axes, name in zip(panels[0], strokes, strict=True):
+        axes.set_title(f"{below}₀ of {name}", loc="center")
     for axes in panels[-1]:
-        axes.set_xlabel("Cs₀, first unit")
+        axes.set_xlabel(f"{top}₀, first unit")
     return figure
 
 
 def _panel(
     axes: Axes,
-    points: pd.DataFrame,
-    segment: int,
+    grid: Float[ndarray, "G 2"],
+    ways: Float[ndarray, "G 2"],
     right: list[tuple[float, float]],
     colour: str,
 ) -> None:
-    grid = points[["cs_1", "cs_2"]].to_numpy(dtype=np.float64)
-    directions = points[f"direction_{segment}_rad"].to_numpy(dtype=np.float64)
-    extents = points[f"extent_{segment}_rad"].to_numpy(dtype=np.float64)
+    directions, extents = ways.T
     off = np.abs(np.angle(np.exp(1j * (directions[:, None] - [angle for angle, _ in right]))))
     near = off.min(axis=1) <= WITHIN
     sides = np.unique(grid[:, 0])
@@ -69,8 +67,7 @@ def _panel(
     for chosen, paint in ((near, colour), (~near, ASTRAY)):
         if chosen.any():
             axes.add_patch(_arrows(grid, directions, lengths, chosen, paint))
-    margin = cell
-    limits = (sides[0] - margin, sides[-1] + margin)
+    limits = (sides[0] - cell, sides[-1] + cell)
     axes.set(xlim=limits, ylim=limits, aspect="equal")
     axes.set_xticks([sides[0], 0, sides[-1]])
     axes.set_yticks([sides[0], 0, sides[-1]])

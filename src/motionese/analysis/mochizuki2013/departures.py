@@ -21,7 +21,7 @@ def departures() -> list[Departure]:
 
     In the file, "## Heading" begins a group, and "- **What.** Why" is a departure on one line.
     """
-    text = resources.files("motionese.experiment").joinpath(FILE).read_text(encoding="utf-8")
+    text = resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8")
     found, heading = [], ""
     for line in text.splitlines():
         if line.startswith("## "):

@@ -1,39 +1,22 @@
-"""The paper's claims (a), (b), (c): what each says of the measures.
+"""The paper's claims (a), (b), (c): what each says of the measures, and the short answer.
 
 A claim has parts, each a difference per seed that is positive where it speaks for the claim.
 """
 
-from dataclasses import dataclass
-
 import pandas as pd
 
+from motionese.analysis.cells import listed
 from motionese.analysis.map_numbers import NOTHING
 from motionese.analysis.measures import Measures
-from motionese.experiment.conditions import CONDITIONS
+from motionese.analysis.statistics import estimate
+from motionese.analysis.verdicts import Claim, Part, judge_alone
 
+QUESTION = "When do clear primitives emerge inside the network?"
 CONVERGED_CM = 3.5
 """A run has converged when its hand is off by less than the radius of a button's cap."""
 SAME = 0.95
 """Directions are the same over a map from this mean resultant length on (spread of 18°)."""
-NAMES = tuple(c.name for c in CONDITIONS)
-TD_MD, TD_MND, TND_MD, TND_MND = NAMES
-
-
-@dataclass(frozen=True)
-class Part:
-    """What is measured, and its difference by seed, positive where it speaks for the claim."""
-
-    measured: str
-    differences: "pd.Series[float]"
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A claim in plain words; `main` marks those of the paper itself."""
-
-    text: str
-    parts: tuple[Part, ...]
-    main: bool = False
+NAMES = TD_MD, TD_MND, TND_MD, TND_MND = "TD/MD", "TD/MND", "TND/MD", "TND/MND"
 
 
 def claims(measures: Measures) -> list[Claim]:
@@ -47,17 +30,15 @@ def _difference(measure: pd.DataFrame, larger: str, smaller: str, what: str) -> 
 
 def _learning(measures: Measures) -> list[Claim]:
     found = []
-    for phase, errors in measures.error_at_end.items():
-        if errors.empty:
-            continue  # a phase of no loops
-        what = f"imitation error at the end of phase {phase} [cm]"
+    for stage, errors in measures.error_at_end.items():
+        what = f"imitation error at the end of stage {stage} [cm]"
         alone = [Part(f"{TND_MD} − {CONVERGED_CM}, {what}", errors[TND_MD] - CONVERGED_CM)]
         others = [name for name in NAMES if name != TND_MD]
         alone += [Part(f"{CONVERGED_CM} − {n}, {what}", CONVERGED_CM - errors[n]) for n in others]
-        text = f"(a) When phase {phase} ends, {TND_MD} alone has not converged"
+        text = f"(a) When stage {stage} ends, {TND_MD} alone has not converged"
         found.append(Claim(text, tuple(alone), main=True))
         for name in others:
-            text = f"(a) When phase {phase} ends, {TND_MD} is farther off than {name}"
+            text = f"(a) When stage {stage} ends, {TND_MD} is farther off than {name}"
             found.append(Claim(text, (_difference(errors, TND_MD, name, what),)))
     return found
 
@@ -113,3 +94,26 @@ def _map(measures: Measures) -> list[Claim]:
             (Part(second, part_of_cs[TD_MD] - NOTHING),),
         ),
     ]  # fmt: skip
+
+
+def answer(measures: Measures) -> str:
+    """Return the answer to the question, from the map's numbers."""
+    lengths = measures.resultant_length
+    found: dict[str, list[str]] = {"holds": [], "does not hold": [], "undecided": []}
+    for name in NAMES:
+        values = lengths[name].dropna()
+        if values.empty:
+            continue
+        middle = estimate(values.to_numpy(dtype=float)).value
+        verdict = judge_alone(values - SAME)
+        group = "undecided" if verdict.startswith("undecided") else verdict
+        found[group].append(f"{name} ({middle:.2f})")
+    if not any(found.values()):
+        return "No run that ended has a slow level whose map could answer it."
+    words = {"holds": "yes in", "does not hold": "no in", "undecided": "undecided in"}
+    told = "; ".join(f"{words[group]} {listed(names)}" for group, names in found.items() if names)
+    return (
+        "A primitive is clear where its Cf₀ alone sets the direction of the hand, whatever Cs₀ is: "
+        f"the directions' mean resultant length over the map of Cs₀ is then at least {SAME}. "
+        f"After the last loop, with medians over the seeds: {told}."
+    )

@@ -1,28 +1,30 @@
 """Recordings for a trained model: its channels, in its order, at its rate."""
 
-from collections.abc import Mapping, Sequence
-from fnmatch import fnmatchcase
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from motionese.channels import Channels
-from motionese.errors import ChannelError, RecordingError, unknown
-from motionese.learning import Fit, Motions
+from motionese.errors import ChannelError, RecordingError
+from motionese.learning.fit import Fit
+from motionese.learning.motions import Motions
 from motionese.learning.recognise import SAME_RATE
 from motionese.recordings import choose, chosen, prepare, read
 
 
 def read_for(
     fit: Fit,
-    path: Path,
+    path: str | Path,
     *,
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
-    needed: Sequence[str],
+    needed: Sequence[str] | None = None,
+    format: str | None = None,
+    episode: str | None = None,
+    time: str | None = None,
+    **choice: Any,
 ) -> Motions:
-    """Read recordings as motions over a model's channels.
+    """Read recordings as motions over a model's channels, in its order, with its ranges.
 
     A channel that is not needed may be missing; it is then not observed. Columns that are no
     channel of the model are left aside.
@@ -30,48 +32,37 @@ def read_for(
     Args:
         fit: The model.
         path: The file or folder.
-        columns: Format, episode and time column, as `recordings.read` takes them.
-        choice: What else `Motions.read` takes.
-        needed: Channels that must be there.
+        needed: Channels that must be there; all where left out.
+        format: As `Motions.read` takes it.
+        episode: As `Motions.read` takes it.
+        time: As `Motions.read` takes it.
+        choice: What else `Motions.read` takes; ranges are the model's.
 
     Raises:
         ChannelError: A needed channel is missing, or they stand in another order.
-        RecordingError: Another rate than the model's.
+        RecordingError: Another rate than the model's, or what `Motions.read` refuses.
     """
-    assert fit.network.channels is not None, "a trained network carries channels"
     channels = fit.network.channels
-    found = read(path, columns["format"], episode=columns["episode"], time=columns["time"])
-    named = choice["channels"] is not None
-    present = chosen(
-        found,
-        choose(channels=choice["channels"] if named else found.channels, exclude=choice["exclude"]),
-    ).channels
+    assert channels is not None, "a trained network carries channels"
+    wish = choose(**choice)
+    found = read(path, format, episode=episode, time=time)
+    taken = {"channels": wish.channels or found.channels, "exclude": wish.exclude}
+    present = chosen(found, choose(**taken)).channels
     own = tuple(name for name in present if name in channels.names)
-    _check_channels(path, channels, own, needed)
+    _check_channels(path, channels, own, channels.names if needed is None else needed)
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
-    wanted = choose(**{**choice, "channels": own, "exclude": (), "ranges": ranges})
-    motions = Motions.from_recording(prepare(found, wanted))
+    ready = prepare(found, choose(**{**choice, "channels": own, "exclude": (), "ranges": ranges}))
+    motions = Motions.from_recording(ready)
     if abs(motions.rate_hz - fit.rate_hz) > SAME_RATE * fit.rate_hz:
         raise RecordingError(
             f"{path}: {motions.rate_hz:g} rows a second, the model was trained at "
-            f"{fit.rate_hz:g}; resample it: --resample {fit.rate_hz:g}"
+            f"{fit.rate_hz:g}; resample it to that (--resample {fit.rate_hz:g})"
         )
     return _widened(motions, channels)
 
 
-def names_matching(channels: Channels, patterns: Sequence[str]) -> list[str]:
-    """Return the model's channels of these names or patterns, in the model's order."""
-    taken: set[str] = set()
-    for pattern in patterns:
-        fitting = {n for n in channels.names if n == pattern or fnmatchcase(n, pattern)}
-        if not fitting:
-            raise ChannelError(unknown("channel", pattern, channels.names))
-        taken |= fitting
-    return [name for name in channels.names if name in taken]
-
-
 def _check_channels(
-    path: Path, channels: Channels, present: Sequence[str], needed: Sequence[str]
+    path: str | Path, channels: Channels, present: Sequence[str], needed: Sequence[str]
 ) -> None:
     missing = [name for name in needed if name not in present]
     if missing:

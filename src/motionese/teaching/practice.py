@@ -1,21 +1,15 @@
-"""Training of a robot that a person teaches, on the experience that it remembers."""
+"""Practice of a robot that a person teaches: training on the experience that it remembers."""
 
 from collections.abc import Callable
-from dataclasses import replace
-
-import numpy as np
 
 from motionese.errors import MotioneseError
-from motionese.experiment import Learner, Scene
-from motionese.experiment.imitation_loop import for_levels
-from motionese.experiment.keys import key_for
-from motionese.experiment.learner import BABBLING
-from motionese.learning import Progress, train
+from motionese.imitation import BABBLING, Learner, Scene, key_for
+from motionese.learning import Progress
 
 CAPACITY, STROKES = 12, 3
 """Experiences, and strokes each, that training is compiled for; twice as many where needed."""
 
-Told = Callable[[int, int, Progress], None]
+Report = Callable[[int, int, Progress], None]
 """Called while the network learns, with epochs done, epochs in all, and how good it is by now."""
 
 
@@ -23,8 +17,8 @@ class DivergedError(MotioneseError):
     """Training left weights that are no numbers; nothing was learned."""
 
 
-def trained(
-    scene: Scene, learner: Learner, loop: int, told: Told, part: tuple[int, int] = (0, 1)
+def practised(
+    scene: Scene, learner: Learner, loop: int, report: Report, part: tuple[int, int] = (0, 1)
 ) -> Learner:
     """Return what a robot becomes by training.
 
@@ -35,8 +29,8 @@ def trained(
         scene: Robot and settings.
         learner: What the robot is, its new experience included.
         loop: The loop that the new experience carries.
-        told: Called while it learns; what it raises ends the training.
-        part: Which of how many trainings in a row this is, for `told`.
+        report: Called while it learns; what it raises ends the training.
+        part: Which of how many trainings in a row this is, for `report`.
 
     Raises:
         DivergedError: The loss or a weight was no longer finite.
@@ -44,25 +38,21 @@ def trained(
     settings = scene.settings
     names = {e.motion for e in learner.experiences} - {BABBLING}
     learner = learner.remembering(loop, settings.imitation.memory, names)
-    motions = learner.motions(scene.body.channels, scene.body.rate_hz)
-    primitive = settings.caregiver.stroke_steps + settings.caregiver.rest_steps
+    longest = max(len(e.values) for e in learner.experiences)
     epochs, (done, parts) = settings.training.epochs, part
-    fit = train(
-        learner.network,
-        motions,
-        settings=for_levels(settings.training, learner),
-        initial_states=np.array([e.initial_state for e in learner.experiences]),
+    learner, fit = learner.trained(
+        settings.training,
+        scene.body.rate_hz,
         key=key_for(scene.seed, "training", loop),
         padded_to=(
-            _doubled(CAPACITY, len(motions)),
-            _doubled(STROKES * primitive, max(motions.lengths)),
+            _doubled(CAPACITY, len(learner.experiences)),
+            _doubled(STROKES * settings.caregiver.primitive_rows, longest),
         ),
-        progress=lambda now: told(done * epochs + now.epoch, parts * epochs, now),
+        progress=lambda now: report(done * epochs + now.epoch, parts * epochs, now),
     )
     if fit.status.failed:
         raise DivergedError(f"I could not learn this ({fit.status.sentence}); I am as I was before")
-    pairs = zip(learner.experiences, fit.initial_states, strict=True)
-    return Learner(fit.network, tuple(replace(e, initial_state=s) for e, s in pairs))
+    return learner
 
 
 def _doubled(size: int, least: int) -> int:
