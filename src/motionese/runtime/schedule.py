@@ -1,14 +1,16 @@
-"""What a control loop plays: motions one after another."""
+"""What a control loop plays: motions one after another, and how long it takes between them."""
 
 from dataclasses import dataclass
+from functools import partial
 from numbers import Integral
 
+import numpy as np
 from numpy import ndarray
 
 from motionese.errors import ControlError
+from motionese.minimum_jerk import transition_rows
 from motionese.runtime.model import RuntimeModel
-from motionese.runtime.player import Blend
-from motionese.runtime.transition import Transition, course
+from motionese.runtime.player import Blend, Player
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +33,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class Scheduled:
+class ScheduledPart:
     """A part as it will be played: so many steps, and how the part before passes into it."""
 
     start: str | ndarray
@@ -39,7 +41,22 @@ class Scheduled:
     blend: Blend
 
 
-def scheduled(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[Scheduled]:
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A motion by itself, in closed loop from where it was recorded, in the channels' units.
+
+    Attributes:
+        first: Its first row. [D]
+        speed: The largest change of every channel from one row to the next. [D]
+        rows: How many it has.
+    """
+
+    first: ndarray
+    speed: ndarray
+    rows: int
+
+
+def schedule(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[ScheduledPart]:
     """Return the parts as they will be played; `ControlError` where one cannot be."""
     if not parts:
         raise ControlError("nothing to play: name a learned motion, or give its initial states")
@@ -52,8 +69,25 @@ def scheduled(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[Schedu
         courses = [course(model, p.start, n) for p, n in zip(given, rows, strict=True)]
         for i, part in enumerate(given):
             if part.blend is None:
-                blends[i] = Transition(courses[max(i - 1, 0)], courses[i]).rows_from
-    return [Scheduled(p.start, n, b) for p, n, b in zip(given, steps, blends, strict=True)]
+                blends[i] = partial(rows_between, courses[max(i - 1, 0)], courses[i])
+    return [ScheduledPart(p.start, n, b) for p, n, b in zip(given, steps, blends, strict=True)]
+
+
+def course(model: RuntimeModel, start: str | ndarray, rows: int) -> Course:
+    """Play a motion of so many rows by itself; about 15 µs a row."""
+    player, nothing = Player(model, model.begin(start)), np.full(len(model.channels), np.nan)
+    way = np.array([player.row, *(player.step_unit(nothing) for _ in range(rows - 1))])
+    return Course(way[0], np.abs(np.diff(way, axis=0)).max(axis=0, initial=0.0), rows)
+
+
+def rows_between(former: Course, latter: Course, here: ndarray) -> int:
+    """Return how many rows a transition takes from here [D], at most half of the later motion's.
+
+    It takes so many, too, where a channel stands still in both motions, at different places. It is
+    as long as the library's `generate_sequence` makes it.
+    """
+    speed = np.maximum(former.speed, latter.speed)
+    return transition_rows(np.abs(latter.first - here), speed, latter.rows // 2)
 
 
 def _rows_sent(model: RuntimeModel, part: Part, first: bool) -> int:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 
-class Ended(StrEnum):
+class Ending(StrEnum):
     """The ways in which a control loop ends."""
 
     DONE = "done"
@@ -16,18 +16,18 @@ class Ended(StrEnum):
 
 
 SENTENCES = {
-    Ended.DONE: "everything was played to its end, {steps} steps",
-    Ended.STOPPED: "the loop was asked to end, after {steps} steps",
-    Ended.SENSORS_SILENT: "no reading came for more than {patience:g} s; "
+    Ending.DONE: "everything was played to its end, {steps} steps",
+    Ending.STOPPED: "the loop was asked to end, after {steps} steps",
+    Ending.SENSORS_SILENT: "no reading came for more than {patience:g} s; "
     "the last command sent is that of step {steps}",
-    Ended.HUNG: "sense or act did not return for more than {patience:g} s; "
+    Ending.HUNG: "sense or act did not return for more than {patience:g} s; "
     "the last command sent is that of step {steps}",
-    Ended.NOT_FINITE: "the prediction after step {steps} is not finite; it was not sent",
+    Ending.NOT_FINITE: "the prediction after step {steps} is not finite; it was not sent",
 }
 
 
 @dataclass(frozen=True)
-class Ran:
+class LoopReport:
     """What a control loop did.
 
     Attributes:
@@ -37,7 +37,7 @@ class Ran:
         worst_lateness_s: The longest time from a period's beginning until its command was sent [s].
         clamped: How often every channel's range took hold.
         slowed: How often every channel's speed limit took hold.
-        ended: How it ended.
+        ending: How it ended.
         sentence: The same for a person.
     """
 
@@ -47,5 +47,5 @@ class Ran:
     worst_lateness_s: float
     clamped: Mapping[str, int]
     slowed: Mapping[str, int]
-    ended: Ended
+    ending: Ending
     sentence: str

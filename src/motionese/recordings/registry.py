@@ -1,9 +1,9 @@
 """Which format a file or folder of recordings is in, and reading and writing it."""
 
 from collections import Counter
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
@@ -13,52 +13,32 @@ from motionese.recordings.recording import Recording
 
 @dataclass(frozen=True)
 class Format:
-    """One format: how it is recognised, read and written.
+    """One format: how it is recognised, and the module that reads and writes it.
 
     Attributes:
         what: What is read, in words.
+        module: Its functions are `read(path) -> Recording` and `write(path, recording)`.
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
     """
 
     what: str
-    suffixes: tuple[str, ...]
-    inside: tuple[str, ...]
-    read: Callable[..., Recording]
-    write: Callable[[Path, Recording], None]
+    module: ModuleType
+    suffixes: tuple[str, ...] = ()
+    inside: tuple[str, ...] = ()
 
 
+JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
+TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
 FORMATS = {
-    "npz": Format("motionese's own .npz", (".npz",), (), npz.read, npz.write),
-    "lerobot": Format(
-        "a LeRobotDataset folder", (), ("meta/info.json",), lerobot.read, lerobot.write
-    ),
-    "eipl": Format(
-        "an EIPL folder (joints.npy)",
-        (),
-        ("joints.npy", "train/joints.npy", "test/joints.npy"),
-        eipl.read,
-        eipl.write,
-    ),
-    "robomimic": Format("robomimic .hdf5", (".hdf5", ".h5"), (), robomimic.read, robomimic.write),
-    "mcap": Format(
-        ".mcap with JSON messages or a folder of them",
-        (".mcap",),
-        ("*.mcap",),
-        mcap.read,
-        mcap.write,
-    ),
-    "csv": Format(
-        ".csv or a folder of them",
-        (*csv.SUFFIXES, ".txt"),
-        ("*.[cC][sS][vV]", "*.[tT][sS][vV]"),
-        csv.read,
-        csv.write,
-    ),
+    "npz": Format("motionese's own .npz", npz, (".npz",)),
+    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
+    "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
+    "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
+    "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
+    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES),
 }
 """By name, in the order in which a folder is tried."""
-
-
 CONTROL = ("Cc", "Cs")
 """Kinds of characters that are no text: control characters, and halves of what is no UTF-8."""
 
@@ -90,13 +70,10 @@ def read(
     if not there:
         raise RecordingError(f"{path}: there is no such file or folder")
     name = _known(format) if format is not None else _found(path)
-    columns = {"episode": episode, "time": time}
-    given = {key: value for key, value in columns.items() if value is not None}
+    given = {k: v for k, v in (("episode", episode), ("time", time)) if v is not None}
     if given and name != "csv":
         raise SettingError(f"{path}: {next(iter(given))} names a column of csv; this is {name}")
-    recording = FORMATS[name].read(path, **given)
-    _check(recording)
-    return recording
+    return _checked(FORMATS[name].module.read(path, **given))
 
 
 def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
@@ -119,8 +96,7 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
             f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
             f"or name the format (--to), one of {', '.join(FORMATS)}"
         )
-    _check(recording)
-    FORMATS[name].write(path, recording)
+    FORMATS[name].module.write(path, _checked(recording))
 
 
 def _known(format: str) -> str:
@@ -130,12 +106,13 @@ def _known(format: str) -> str:
 
 
 def _found(path: Path) -> str:
-    name = _in_folder(path) if path.is_dir() else _by_suffix(path)
+    name = _by_suffix(path)
+    if path.is_dir():
+        holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
+        name = next(holding, None)
     if name is None:
-        raise RecordingError(
-            f"{path}: not a recording that is read here: "
-            f"{', '.join(f.what for f in FORMATS.values())}"
-        )
+        known = ", ".join(f.what for f in FORMATS.values())
+        raise RecordingError(f"{path}: not a recording that is read here: {known}")
     return name
 
 
@@ -143,16 +120,10 @@ def _by_suffix(path: Path) -> str | None:
     return next((n for n, f in FORMATS.items() if path.suffix.lower() in f.suffixes), None)
 
 
-def _in_folder(path: Path) -> str | None:
-    return next((n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside)), None)
-
-
-def _check(recording: Recording) -> None:
+def _checked(recording: Recording) -> Recording:
     """Check what holds for every format, so that no reader need check it."""
-    for kind, names in (
-        ("channel", recording.channels),
-        ("episode", [e.name for e in recording.episodes]),
-    ):
+    episodes = tuple(e.name for e in recording.episodes)
+    for kind, names in (("channel", recording.channels), ("episode", episodes)):
         if not names:
             raise RecordingError(f"{recording.source}: holds no {kind}")
         strange = [n for n in names if not n.strip() or any(category(c) in CONTROL for c in n)]
@@ -166,3 +137,4 @@ def _check(recording: Recording) -> None:
             raise RecordingError(
                 f"{recording.source}: {kind} names must be unique; doubled: {', '.join(doubled)}"
             )
+    return recording
