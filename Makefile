@@ -43,7 +43,7 @@ $(READY): pyproject.toml constraints.txt
 		{ echo "motionese needs Python 3.11 or newer; name one: make PYTHON=python3.12 ..."; exit 2; }
 	@echo "Setting up $(VENV) (once; about a minute) ..."
 	@$(PYTHON) -m venv $(VENV)
-	@$(PIP) -e ".[vision]"
+	@$(PIP) -e ".[experiment,vision]"
 	@touch $@
 
 $(TOOLS): $(READY)

@@ -39,7 +39,7 @@ BESIDE_THE_CODE = {
 }
 """Pages whose text stands beside the code, and the pages of this site that include it."""
 
-ROOMS = ("learning", "network", "channels", "interfaces.estimator")
+ROOMS = ("learning", "network", "channels", "interfaces.estimator", "interfaces.onnx_export")
 """Where the package's own public names are documented."""
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from motionese.channels import Channel, Channels
 from motionese.network import MTRNN, Level, write_network
+from motionese.runtime import timing
 
 CHANNELS = Channels(
     [
@@ -48,7 +49,7 @@ def nothing_learned(fit):
     return replace(fit, names=(), lengths=(), initial_states=states, validation_names=(), **none)
 
 
-class Clock:
+class Clock(timing.Clock):
     """Time that passes when somebody sleeps, or when a test says so."""
 
     def __init__(self):

@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 
 from motionese.analysis.film import film, moments
 from motionese.analysis.inside import principal_plane
-from motionese.analysis.style import SETTINGS, finished, looks_of
+from motionese.analysis.style import looks_of
 from motionese.body import load_model
+from motionese.figure_style import SETTINGS, finished
 
 
 def drawing(name="one"):

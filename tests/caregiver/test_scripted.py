@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motionese.body import BodySettings, open_body
+from motionese.body import open_body
+from motionese.body.actroid import ActroidSettings
 from motionese.caregiver import Demonstration, Manner, ScriptedCaregiver
 from motionese.errors import TaskError
 from motionese.minimum_jerk import minimum_jerk
@@ -19,7 +20,7 @@ PAIR = PUSHING_BUTTONS.sequence("UR ↓↑")
 
 @pytest.fixture(scope="module")
 def body():
-    return open_body(BodySettings(), PUSHING_BUTTONS)
+    return open_body(ActroidSettings(), PUSHING_BUTTONS)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +68,7 @@ def test_the_intended_path_lies_where_the_hand_can_be(caregiver, body):
 
 
 def test_arcs_are_shown_as_arcs():
-    body = open_body(BodySettings(), SHAPES)
+    body = open_body(ActroidSettings(), SHAPES)
     arc = SHAPES.sequence("T ◝")
     path = ScriptedCaregiver(SHAPES, MANNER, body).intended(arc)
     chord = np.linalg.norm(SHAPES.position("LR") - SHAPES.position("T"))

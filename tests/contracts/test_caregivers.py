@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from motionese.body import BodySettings, open_body
+from motionese.body import open_body
+from motionese.body.actroid import ActroidSettings
 from motionese.caregiver import Caregiver, Manner, RecordedCaregiver, ScriptedCaregiver
 from motionese.errors import TaskError
 from motionese.task import PUSHING_BUTTONS
@@ -13,7 +14,7 @@ SEQUENCES = [s for length in (1, 2) for s in PUSHING_BUTTONS.sequences(length)]
 
 
 def scripted():
-    body = open_body(BodySettings(), PUSHING_BUTTONS)
+    body = open_body(ActroidSettings(), PUSHING_BUTTONS)
     return ScriptedCaregiver(PUSHING_BUTTONS, MANNER, body)
 
 

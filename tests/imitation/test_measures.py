@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from motionese.body import BodySettings, open_body
+from motionese.body import open_body
+from motionese.body.actroid import ActroidSettings
 from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.task import PUSHING_BUTTONS
 
@@ -15,7 +16,7 @@ def test_path_error_is_the_mean_distance():
 
 
 def test_seen_error_is_the_distance_across_the_line_of_sight():
-    body = open_body(BodySettings(pixel_noise=0.0), PUSHING_BUTTONS)
+    body = open_body(ActroidSettings(pixel_noise=0.0), PUSHING_BUTTONS)
     rng = np.random.default_rng(0)
     hands, seen = [], []
     for arm in ([0.2, 0.0], [0.25, 0.02]):

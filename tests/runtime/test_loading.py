@@ -19,7 +19,7 @@ from motionese.learning import write_fit
 from motionese.network import MTRNN, Level, storage, write_network
 from motionese.runtime import load as load_here
 from motionese.runtime import loading
-from motionese.runtime.safetensors_file import parse
+from motionese.runtime.loading import parse
 
 ALONE = """
 import sys
@@ -39,7 +39,7 @@ from motionese.runtime import ControlLoop, load
 
 sent = []
 loop = ControlLoop(load(sys.argv[1]), lambda: {"lift": 0.5}, sent.append, watchdog_s=5.0)
-print(loop.run("reach").ended, len(sent))
+print(loop.run("reach").ending, len(sent))
 """
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from motionese.analysis.directions import true_strokes
 from motionese.analysis.facts import Facts, read_facts
 from motionese.analysis.run_files import read_end, read_inside, read_table
 from motionese.analysis.style import Look, looks_of
-from motionese.body import BODIES, TabletopRobot
+from motionese.body import SimulatedRobot, open_body
 from motionese.errors import RunFolderError
 from motionese.experiment import Run, Study, condition_named
 from motionese.task import Task
@@ -89,10 +90,12 @@ class Collected:
         looks = looks_of(self.study.factors)
         return {name: look for name, look in looks.items() if name in present}
 
-    @property
-    def robot(self) -> type[TabletopRobot[Any]]:
-        """The robot of all runs, as its class: its channels, and where its eye is."""
-        return BODIES[self.study.body.name][1]
+    @cached_property
+    def robot(self) -> SimulatedRobot:
+        """The robot of all runs: its channels, its model, where its eye is."""
+        # Nothing is looked at: a machine that renders no pictures can read about those that do.
+        unseeing = self.study.body.model_copy(update={"vision": "projection"})
+        return open_body(unseeing, self.task)
 
     @property
     def strokes(self) -> Mapping[str, tuple[float, float]]:

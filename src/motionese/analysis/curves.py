@@ -10,7 +10,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from motionese.analysis.measures import achieved
 from motionese.analysis.statistics import estimate
-from motionese.analysis.style import FAINT, WIDTH, Look, light_grid
+from motionese.analysis.style import Look, light_grid
+from motionese.figure_style import FAINT, WIDTH
 from motionese.task import Outcome
 
 SOURCES = {

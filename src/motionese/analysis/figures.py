@@ -17,8 +17,8 @@ from motionese.analysis.measures import Measures, typical_seed
 from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
-from motionese.analysis.style import SETTINGS, Drawing, Sketch, finished
-from motionese.body import load_model
+from motionese.analysis.style import Sketch
+from motionese.figure_style import SETTINGS, Drawing, finished
 from motionese.imitation import sample_sequence
 
 OVER_SEEDS = (
@@ -147,9 +147,7 @@ def _of_the_inside(collected: Collected, measures: Measures) -> Iterator[Sketch]
                collected.looks),
     )  # fmt: skip
     strongest = max(kept, key=lambda c: _strongest_effect(kept[c]))
-    study = collected.study
-    model = load_model(study.body, collected.task)
-    strip, note = film(kept[strongest], model, study.body.rate_hz)
+    strip, note = film(kept[strongest], collected.robot.model, collected.robot.rate_hz)
     yield Sketch(
         "film",
         "inside",
@@ -170,7 +168,7 @@ def _performed(kept: Mapping[str, ndarray], collected: Collected) -> Performed:
             levels[level.name] = slice(begin, begin + level.size)
             begin += level.size
     boundaries = [int(row) for row in kept["begins"][1:]]
-    return Performed(activity, levels, boundaries, collected.study.body.rate_hz)
+    return Performed(activity, levels, boundaries, collected.robot.rate_hz)
 
 
 def _typical(by_seed: pd.DataFrame) -> dict[str, int]:

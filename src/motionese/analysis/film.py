@@ -11,9 +11,9 @@ from matplotlib.patches import Polygon
 from numpy import ndarray
 from scipy.spatial import ConvexHull
 
-from motionese.analysis.style import WIDTH
 from motionese.body import Geometry, pictures
 from motionese.errors import RenderingError
+from motionese.figure_style import WIDTH
 
 FRAMES, COLUMNS = 8, 4
 ROUND = np.linspace(0, 2 * np.pi, 24, endpoint=False)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, SubFigure
 from numpy import ndarray
 
 from motionese.analysis.curves import Looks
-from motionese.analysis.style import FAINT, INK, PAPER, WIDTH
+from motionese.figure_style import FAINT, INK, PAPER, WIDTH
 
 FEW_UNITS = 15
 """A level of more units is drawn in rows of a quarter of the height."""

@@ -13,7 +13,8 @@ from numpy import ndarray
 from motionese.analysis.collected import Collected
 from motionese.analysis.directions import WITHIN, following
 from motionese.analysis.map_numbers import level_names
-from motionese.analysis.style import ASTRAY, FAINT, WIDTH
+from motionese.analysis.style import ASTRAY
+from motionese.figure_style import FAINT, WIDTH
 
 HEAD = np.radians(150)
 """The barbs of an arrow point back by this angle."""

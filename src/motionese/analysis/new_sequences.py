@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from motionese.analysis.curves import Looks
 from motionese.analysis.measures import Measures
 from motionese.analysis.statistics import estimate
-from motionese.analysis.style import FAINT, INK, PAPER, WIDTH, Look, light_grid
+from motionese.analysis.style import Look, light_grid
+from motionese.figure_style import FAINT, INK, PAPER, WIDTH
 
 SPREAD = 0.18
 """Width over which the seeds of a column are laid out [columns]."""

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy import ndarray
 
 from motionese.analysis.collected import Collected
-from motionese.analysis.style import FAINT, INK, WIDTH
+from motionese.figure_style import FAINT, INK, WIDTH
 from motionese.task import Task
 
 CAP_RADIUS_CM = 3.5

@@ -3,7 +3,7 @@
 A robot is a folder of this room and a row of `BODIES`: its settings, and its class.
 """
 
-from motionese.errors import RenderingError, SettingError
+from motionese.errors import RenderingError, SettingError, needs
 
 try:
     import mujoco
@@ -13,6 +13,8 @@ except AttributeError as fault:
         "MuJoCo cannot load the GL library that the environment variable MUJOCO_GL asks for; "
         "unset it, or install libegl1 and libgl1 (Debian, Ubuntu)"
     ) from fault
+except ModuleNotFoundError as fault:
+    raise needs("mujoco-core", "experiment", "a simulated robot") from fault
 
 from typing import Annotated, Any
 

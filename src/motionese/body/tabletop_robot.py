@@ -91,6 +91,18 @@ class TabletopRobot(ABC, Generic[Settings]):
     ) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad], corrected for a hand seen at (u, v) [px]."""
 
+    @abstractmethod
+    def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
+        """Return the points [m, world] that the marker reaches nearest to those of a path."""
+
+    @abstractmethod
+    def bearing(self, values: Float[ndarray, "*shape D"]) -> Float[ndarray, "*shape 2"]:
+        """Return azimuth and elevation [rad] of the seen hand, from the channels' values."""
+
+    @abstractmethod
+    def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
+        """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
+
     def reset(self, posture: Float[ndarray, " J"], rng: np.random.Generator) -> None:
         """Begin to act: arm settled at the commanded angles [rad], eye on its own hand.
 

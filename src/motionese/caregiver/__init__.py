@@ -13,6 +13,7 @@ from motionese.caregiver.segmentation import (
     evenly_along,
     intended_way,
     rows_of_places,
+    segmented,
     sequence_in,
     stroke_length,
 )
@@ -33,6 +34,7 @@ __all__ = [
     "read_recorded",
     "recording_of",
     "rows_of_places",
+    "segmented",
     "sequence_in",
     "stroke_length",
 ]

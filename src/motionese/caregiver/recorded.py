@@ -18,7 +18,7 @@ from numpy import ndarray
 from motionese.body import SimulatedRobot
 from motionese.caregiver.demonstration import Caregiver, Demonstration
 from motionese.caregiver.scripted import Manner
-from motionese.caregiver.segmentation import rows_of_places, sequence_in
+from motionese.caregiver.segmentation import segmented, sequence_in
 from motionese.caregiver.tempo import lasting, moving
 from motionese.errors import RecordingError, TaskError, unknown
 from motionese.recordings import Episode, Recording, choose, prepare, read
@@ -123,10 +123,7 @@ def read_recorded(path: Path, task: Task, manner: Manner, body: SimulatedRobot) 
             what = shows.name if shows else f"no sequence of {task.name}"
             raise RecordingError(f"{file}: episode '{episode.name}' shows {what}")
         shown = lasting(hand, manner.rows(sequence))
-        places = np.array([task.position(place) for place in sequence.places])
-        recordings.setdefault(sequence.name, []).append(
-            Demonstration(shown, rows_of_places(shown, places)[:-1])
-        )
+        recordings.setdefault(sequence.name, []).append(segmented(shown, sequence, task))
         digest.update(sequence.name.encode() + shown.tobytes())
     if not recordings:
         raise RecordingError(

@@ -1,9 +1,12 @@
 """Segmentation of a hand's path: which sequence of a task it is, and where its primitives begin."""
 
+from functools import lru_cache
+
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.caregiver.demonstration import Demonstration
 from motionese.task import PrimitiveSequence, Task
 
 LONGEST = 6
@@ -46,12 +49,26 @@ def sequence_in(path: Float[ndarray, "T 3"], task: Task) -> PrimitiveSequence | 
 
     It is the one whose way is nearest; times do not matter.
     """
-    way = evenly_along(path)
-    candidates = [s for length in range(1, LONGEST + 1) for s in task.sequences(length)]
-    ways = np.array([intended_way(sequence, task) for sequence in candidates])
-    apart = np.linalg.norm(ways - way, axis=-1).mean(-1)
+    candidates, ways = _candidates(task)
+    apart = np.linalg.norm(ways - evenly_along(path), axis=-1).mean(-1)
     nearest = int(apart.argmin())
     return candidates[nearest] if apart[nearest] < NEAR * stroke_length(task) else None
+
+
+@lru_cache(maxsize=4)
+def _candidates(task: Task) -> tuple[list[PrimitiveSequence], Float[ndarray, "S P 3"]]:
+    candidates = [s for length in range(1, LONGEST + 1) for s in task.sequences(length)]
+    return candidates, np.array([intended_way(sequence, task) for sequence in candidates])
+
+
+def segmented(
+    path: Float[ndarray, "T 3"], sequence: PrimitiveSequence | None, task: Task
+) -> Demonstration:
+    """Return a path as a demonstration of a sequence of the task, or of nothing that it knows."""
+    if sequence is None:
+        return Demonstration(path, (0,))
+    places = np.array([task.position(name) for name in sequence.places])
+    return Demonstration(path, rows_of_places(path, places)[:-1])
 
 
 def rows_of_places(path: Float[ndarray, "T 3"], places: Float[ndarray, "K 3"]) -> tuple[int, ...]:

@@ -130,16 +130,21 @@ def checked(model: type[M], table: Table) -> M:
         # Of a location, only what stands in the file: not which of several types was tried.
         path: list[str] = []
         here: Any = table
+        missing = first["loc"][-1:] if first["type"] == "missing" else ()
         for part in first["loc"]:
             if isinstance(here, list) and isinstance(part, int) and part < len(here):
                 path, here = [*path, str(part)], here[part]
-            elif isinstance(here, Mapping) and (part in here or first["type"] == "missing"):
+            elif isinstance(here, Mapping) and (part in here or part in missing):
                 path, here = [*path, str(part)], here.get(part)
-            else:
-                break
         name = ".".join(path)
         if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
-            raise SettingError(unknown("setting", name, setting_names(model, path[:-1]))) from error
+            known = [n for n in setting_names(model, path[:-1]) if n != name]
+            raise SettingError(unknown("setting", name, known)) from error
+        if first["type"] == "union_tag_invalid":
+            asked, among = first["ctx"]["tag"], first["ctx"]["expected_tags"]
+            raise SettingError(
+                f"setting {name}.name = '{asked}': input should be {among}"
+            ) from error
         if first["type"] == "missing":
             raise SettingError(f"setting {name} is missing") from error
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""

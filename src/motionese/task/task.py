@@ -57,7 +57,7 @@ Achieved = Callable[[PrimitiveSequence, Attempt], dict[str, Any]]
 """What an attempt at a sequence has achieved, by column."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Task:
     """What is to be learned, and how success is measured.
 

@@ -2,39 +2,34 @@
 
 import json
 
-import numpy as np
 import pytest
 
-from motionese.caregiver import PUSHING_BUTTONS
-from motionese.experiment import Scene
+from motionese.caregiver import DEMONSTRATIONS, intended_way, recording_of
 from motionese.recordings import write
-from motionese.teaching.demonstrations import recording_of
-from motionese.teaching.notebook import Entry
 
 
 @pytest.fixture
 def shown(small_settings, here):
     """A folder in which a person's demonstrations lie."""
-    scene = Scene(small_settings, 0)
-    path = scene.caregiver.intended(PUSHING_BUTTONS.motion("UR ↓"))
-    entries = [Entry(1, "UR ↓", "drawn", np.repeat(path, 2, axis=0), path)]
+    task = small_settings.task.task()
+    paths = [(name, intended_way(task.sequence(name), task)) for name in ("UR ↓", "UR ←")]
     (here / "taught").mkdir()
-    write(here / "taught" / "demonstrations.npz", recording_of(entries, scene.body.rate_hz))
+    write(here / "taught" / DEMONSTRATIONS, recording_of(paths, rate_hz=20.0))
     return "recordings:taught"
 
 
 def test_recorded_demonstrations_are_shown_and_noted(command, shown, here, monkeypatch):
     asked = {}
 
-    def go_through_all(runs, settings, workers, *, caregiver, **told):
-        asked.update(runs=runs, caregiver=caregiver)
+    def go_through_all(runs, settings, workers, *, recordings, **told):
+        asked.update(runs=runs, recordings=recordings)
         return ["not gone through"]
 
     monkeypatch.setattr("motionese.interfaces.commands.reproduce.go_through_all", go_through_all)
     arguments = ("reproduce", "--quick", "--seeds", "1", "--out", "run")
     status, output, errors = command(*arguments, "--caregiver", shown)
-    assert status == 2 and "not gone through" in errors and "UR ↓" in output
-    assert list(asked["caregiver"].recordings) == ["UR ↓"]
+    assert status == 2 and "not gone through" in errors and "UR ↓, UR ←" in output
+    assert list(asked["recordings"]) == ["UR ↓", "UR ←"]
     digest = json.loads((here / "run" / "settings.json").read_text())["demonstrations"]
     assert {run.shown for run in asked["runs"]} == {digest}
     status, _, errors = command(*arguments)

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionese.errors import SettingError
+from motionese.experiment import read_settings
 from motionese.interfaces.commands.choices import as_ranges, read_conditions, read_seeds
 
 
@@ -18,12 +19,12 @@ from motionese.interfaces.commands.choices import as_ranges, read_conditions, re
     ],
 )
 def test_conditions(texts, names):
-    assert [c.name for c in read_conditions(texts)] == names
+    assert [c.name for c in read_conditions(texts, read_settings())] == names
 
 
 def test_an_unknown_condition_is_answered_with_the_nearest():
     with pytest.raises(SettingError, match="unknown condition 'TNDMND'; did you mean 'TND/MND'"):
-        read_conditions(["TD/MD,TNDMND"])
+        read_conditions(["TD/MD,TNDMND"], read_settings())
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,7 @@ def test_several_values_may_follow_an_option(written, meant):
         (["reproduce", "--help"], "10 means seeds 0 to 9"),
         (["--version"], "motionese 0."),
         (["presets"], "paper: The paper to the letter"),
-        (["presets", "default"], "change_after = 15"),
+        (["presets", "default"], "until = { loops = 15 }"),
     ],
 )
 def test_what_is_asked_for_is_printed(command, arguments, told):
@@ -40,7 +40,10 @@ def test_what_is_asked_for_is_printed(command, arguments, told):
     assert errors == ""
 
 
-IMPOSSIBLE = '[teaching.TD]\nphase_1 = "primitives"\nphase_2 = ["UR ↓↓"]\n'
+IMPOSSIBLE = '[[stages]]\nlesson = ["UR ↓↓"]\nlevels = ["io", "cf"]\nuntil = {loops = 1}\n'
+NARROW = (
+    "[network.levels]\nio = {size = 5, tau = 2}\ncf = {size = 9, tau = 5}\ncs = {size = 2, tau = 9}"
+)
 WRONG = {
     "condition": (["--conditions", "TD/MX"], "unknown condition 'TD/MX'; did you mean 'TD/MD'?"),
     "no seeds": (["--seeds", "0"], "--seeds 0: there are no such seeds"),
@@ -48,15 +51,21 @@ WRONG = {
     "no TOML": (["--preset", "wrong.toml"], "wrong.toml: not a TOML file"),
     "setting": (["--set", "training.epoch=5"], "did you mean 'training.epochs'?"),
     "level": (["--set", "training.noise.cx=1"], "unknown level in training.noise 'cx'"),
-    "corner": (["--set", "caregiver.corners.UX=[0,0,0]"], "unknown corner 'UX'; did you mean 'U"),
+    "place": (["--set", "task.places.UX=[0,0,0]"], "unknown place 'UX'; did you mean 'U"),
+    "task": (["--set", "task.name='shape'"], "unknown task 'shape'; did you mean 'shapes'?"),
+    "body": (["--set", "body.name='desk'"], "body.name = 'desk': "),
     "tau": (["--set", "network.levels.cs.tau=0.5"], "network.levels.cs.tau = 0.5: "),
     "size": (["--set", "network.levels.cf.size=0"], "network.levels.cf.size = 0: "),
-    "IO": (["--set", "network.levels.io.size=5"], "one unit per channel (6), got 5"),
-    "loops": (["--set", "phases.loops=0"], "phases.loops = 0: "),
+    "IO": (["--preset", "narrow.toml"], "one unit per channel (6), got 5"),
+    "loops": (["--set", "stages.0.until.loops=0"], "stages.0.until.loops = 0: "),
+    "stage": (["--set", "stages.2.until.loops=5"], "unknown setting 'stages.2'"),
+    "no level": (["--set", "stages.1.levels=['io', 'cx']"], "unknown level in stages.1.levels"),
+    "closed": (["--set", "stages.1.levels=['io', 'cf']"], "closes a level that stage 0 has opened"),
+    "before": (["--set", "phases.loops=5"], "it is now [[stages]], each with until = { loops"),
     "no value": (["--set", "training.epochs"], "--set takes name=value, got 'training.epochs'"),
     "vision": (["--vision", "magic"], "body.vision = 'magic': "),
     "sequence": (["--preset", "impossible.toml"], "impossible sequence 'UR ↓↓'"),
-    "reach": (["--set", "caregiver.corners.UR=[9,9,9]"], "corner UR"),
+    "reach": (["--set", "task.places.UR=[9,9,9]"], "place UR"),
     "file": (["--out", "wrong.toml"], "wrong.toml is a file"),
     "foreign": (["--out", "."], ". is not empty and no run folder"),
     "nowhere": (["--out", "wrong.toml/runs"], "wrong.toml/runs cannot be written to"),
@@ -69,13 +78,14 @@ def test_a_mistake_is_answered_by_a_sentence_and_leaves_nothing_behind(
 ):
     (here / "wrong.toml").write_text("no [TOML")
     (here / "impossible.toml").write_text(IMPOSSIBLE)
+    (here / "narrow.toml").write_text(NARROW)
     status, output, errors = command("reproduce", "--quick", *arguments)
     assert status == 2
     assert output == ""
     assert errors.startswith("motionese: ")
     assert errors.count("\n") == 1
     assert told in errors
-    assert sorted(p.name for p in here.iterdir()) == ["impossible.toml", "wrong.toml"]
+    assert {p.name for p in here.iterdir()} == {"impossible.toml", "narrow.toml", "wrong.toml"}
 
 
 @pytest.mark.parametrize(

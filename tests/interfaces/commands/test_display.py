@@ -5,7 +5,7 @@ import io
 import pytest
 from rich.console import Console
 
-from motionese.experiment.conditions import condition
+from motionese.experiment import Condition
 from motionese.experiment.run import Run
 from motionese.interfaces.commands import display as module
 from motionese.interfaces.commands.display import Display
@@ -13,7 +13,7 @@ from motionese.interfaces.commands.display import Display
 
 @pytest.fixture
 def runs(tmp_path):
-    runs = [Run(condition("TD/MD"), seed, tmp_path / str(seed)) for seed in (0, 1, 2)]
+    runs = [Run(Condition(("TD", "MD")), seed, tmp_path / str(seed)) for seed in (0, 1, 2)]
     for run in runs[1:]:
         run.folder.mkdir()
     (runs[1].folder / "loop-01.safetensors").touch()

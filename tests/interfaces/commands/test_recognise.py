@@ -73,7 +73,8 @@ def test_another_rate_is_resampled(arm):
     fast = {n: np.repeat(v, 2, axis=0)[:-1] for n, v in list(arm_motions().items())[:1]}
     write_csv("fast.csv", fast, rate_hz=40.0)
     assert refused("recognise", "arm.safetensors", "fast.csv") == (
-        "fast.csv: 40 rows a second, the model was trained at 20; resample it: --resample 20"
+        "fast.csv: 40 rows a second, the model was trained at 20; "
+        "resample it to that (--resample 20)"
     )
 
     assert "│ lift" in recognised("fast.csv", "--resample", "20")

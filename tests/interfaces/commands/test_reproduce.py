@@ -17,8 +17,8 @@ def pretend(monkeypatch):
     def pretended(status="finished", failures=(), too_few=""):
         reported = []
 
-        def go_through_all(runs, settings, workers, *, caregiver, loop_done, run_ended):
-            assert caregiver is None, "the scripted one"
+        def go_through_all(runs, settings, workers, *, recordings, loop_done, run_ended):
+            assert recordings is None, "scripted ones"
             for run in runs:
                 loop_done(run, 0)
                 if status:

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
+from motionese.experiment import read_settings
 from motionese.interfaces.commands.results import summary
 
 
@@ -16,6 +17,7 @@ def folder(tmp_path):
             "condition": condition,
             "seed": seed,
             "loop": loop,
+            "phase": 1 if loop <= 2 else 2,
             "imitation_error_cm": error + 10 * seed / loop + spread,
             "buttons_due": 2,
             "buttons_pressed": 1,
@@ -44,20 +46,21 @@ def lines(table):
 
 
 def test_medians_over_seeds_of_means_over_motions(folder):
-    assert lines(summary(folder, change_after=2))[4:-1] == [
-        ["TD/MD", "3", "11.0", "6.0", "3.5", "4.0", "6 of 12"],
+    assert lines(summary(folder, read_settings()))[5:-1] == [
+        ["TD/MD", "3", "11.0", "6.0", "3.5", "47.0", "6 of 12"],
         ["TND/MND", "3", "12.0", "7.0", "4.5", "–", "6 of 12"],
     ]
 
 
-@pytest.mark.parametrize("change_after", [0, 1, 4, 9])
-def test_no_loop_is_shown_twice(folder, change_after):
-    headers = [str(column.header) for column in summary(folder, change_after).columns]
-    assert headers[2:-2] == ["loop 1", "loop 4"]
+def test_every_stage_of_a_study_has_a_column_and_every_set_of_new_sequences(folder):
+    headers = [
+        str(column.header) for column in summary(folder, read_settings("three_stages")).columns
+    ]
+    assert headers[2:-1] == ["loop 1", "stage 1", "stage 2", "stage 3", "new triples"]
 
 
-def test_without_new_motions_and_buttons_there_are_dashes(folder):
+def test_without_new_sequences_there_is_no_column_and_without_due_presses_a_dash(folder):
     (folder / "triples.csv").unlink()
     loops = pd.read_csv(folder / "loops.csv").assign(buttons_due=0, buttons_pressed=0)
     loops.to_csv(folder / "loops.csv")
-    assert lines(summary(folder, change_after=2))[4][-2:] == ["–", "–"]
+    assert lines(summary(folder, read_settings()))[5] == ["TD/MD", "3", "11.0", "6.0", "3.5", "–"]

@@ -9,8 +9,7 @@ import pytest
 from typed import CHANNELS, NAMES, arm_motions, refused, typed, write_csv
 
 from motionese import Motions, Training, load
-from motionese.interfaces.commands.held_out import split
-from motionese.interfaces.commands.train import read_training
+from motionese.interfaces.commands.train import read_held_out, read_training
 from motionese.interfaces.commands.training_display import TrainingDisplay
 
 SHORT = ("--levels", "10:3,3:15", "--epochs", "100", "--held-out", "0")
@@ -68,17 +67,14 @@ def test_errors_of_held_out_motions_are_told_and_logged(arm):
     assert (line["epoch"], line["loss"]) == (100, fit.losses[-1])
 
 
-def test_motions_are_held_out_by_name_also_where_it_is_a_number(arm):
+def test_a_number_is_a_motion_where_one_has_that_name_and_below_one_a_share(arm):
     write_csv("demos.csv", dict(zip("0123", arm_motions().values(), strict=False)))
     motions = Motions.read("demos.csv")
 
-    for text, held_out in (("3", ("3",)), ("1", ("1",)), ("2,0", ("0", "2"))):
-        learned, unseen = split(motions, text, seed=0)
-        assert unseen.names == held_out
-        assert set(learned.names) == set("0123") - set(held_out)
-    assert split(motions, "0", seed=0) == (motions, None)
-    assert split(motions, None, seed=0) == (motions, None)
-    assert len(split(motions, "0.5", seed=0)[1]) == 2
+    assert read_held_out(None, motions) is None
+    assert [read_held_out(text, motions) for text in ("0", "0.5", "5")] == [0, 0.5, 5]
+    assert read_held_out("1", motions) == ["1"]
+    assert read_held_out("2, 0", motions) == ["2", "0"]
 
 
 def test_settings_are_given_by_name_and_by_level():
@@ -208,8 +204,8 @@ WRONG = {
     "units": (["data.npz", "--levels", "1000000000:5"], "levels of 1000000000 units in all"),
     "io huge": (["data.npz", "--io-tau", "1e308"], "at most 1e+30, got 1e+308"),
     "io": (["data.npz", "--io-tau", "0"], "tau must be finite and ≥ 1 step, at most 1e+30, got 0"),
-    "share": (["data.npz", "--held-out", "1.5"], "--held-out 1.5: a share of the motions"),
-    "all": (["data.npz", "--held-out", "0.99"], "--held-out 0.99: leaves no motion to learn"),
+    "share": (["data.npz", "--held-out", "1.5"], "held out 1.5: a share of the motions"),
+    "all": (["data.npz", "--held-out", "0.99"], "held out 0.99: leaves no motion to learn"),
     "each": (["data.npz", "--held-out", ",".join(NAMES)], "leaves no motion to learn"),
     "name": (["data.npz", "--held-out", "wve"], "unknown motion 'wve'; did you mean 'wave'?"),
     "empty": (["data.npz", "--held-out", ""], "unknown motion ''"),

@@ -8,6 +8,7 @@ from typed import refused
 
 EXTRAS = ("pyarrow", "h5py", "mcap", "cv2", "sklearn", "onnx", "onnxruntime", "tensorboardX")
 EXTRAS += ("rerun", "starlette", "uvicorn", "torch")
+EXTRAS += ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas")
 PLAINLY = """
 import importlib.abc, sys
 
@@ -48,7 +49,7 @@ def test_a_plain_installation_has_all_commands_for_csv_npz_and_eipl(arm):
             "import eipl --rate 20 --out again.csv",
         ],
         "import motionese, motionese.runtime\n"
-        "from motionese.interfaces.commands import convert, generate, recognise, train",
+        "from motionese.interfaces.commands import export, generate, recognise, train",
     )
 
     assert (status, errors) == (0, "")
@@ -82,7 +83,16 @@ NEEDED = {
         *("tensorboardX", "tensorboardX"),
     ),
     "rerun": ("train data.npz --out new.safetensors --log rerun", "rerun", "rerun-sdk"),
+    "experiment": ("reproduce", "mujoco", "mujoco-core"),
+    "many runs": ("reproduce", "dask", "dask"),
+    "report": ("report runs/default", "pandas", "pandas"),
+    "presets": ("presets", "mujoco", "mujoco-core"),
+    "web": ("teach --no-browser", "mujoco", "mujoco-core"),
+    "page": ("teach --no-browser", "starlette", "starlette"),
 }
+"""The command, the module that is not there, the package that would bring it."""
+EXTRA = {"onnxruntime": "onnx", "read hdf5": "hdf5", "page": "web"}
+EXTRA |= dict.fromkeys(("many runs", "report", "presets"), "experiment")
 
 
 def run_here_without(module, line, monkeypatch):
@@ -99,5 +109,17 @@ def test_a_missing_extra_is_told_by_a_sentence(arm, extra, monkeypatch):
     told = run_here_without(module, line, monkeypatch)
 
     assert f"needs the package '{package}', which is not installed" in told
-    which = {"onnxruntime": "onnx", "read hdf5": "hdf5"}.get(extra, extra)
-    assert told.endswith(f"pip install 'motionese[{which}]'")
+    assert told.endswith(f"pip install 'motionese[{EXTRA.get(extra, extra)}]'")
+
+
+def test_a_simulated_robot_without_its_package_is_told_by_a_sentence_in_the_library_too():
+    ran = subprocess.run(
+        [sys.executable, "-c", "import sys; sys.modules['mujoco'] = None; import motionese.body"],
+        capture_output=True,
+        text=True,
+    )
+
+    assert ran.stderr.endswith(
+        "MissingPackageError: a simulated robot needs the package 'mujoco-core', which is not "
+        "installed: pip install 'motionese[experiment]'\n"
+    )

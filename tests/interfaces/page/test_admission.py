@@ -127,7 +127,7 @@ WRONG = {
     "long name": {"type": "demonstrate", "motion": "UR " + "↓" * 100},
     "entry": {"type": "forget", "entry": 1.5},
     "negative entry": {"type": "forget", "entry": -1},
-    "map": {"type": "hover", "cs": [0, 1e300], "primitive": "UR ↓"},
+    "map": {"type": "hover", "slow": [0, 1e300], "primitive": "UR ↓"},
     "robot": {"type": "begin", "with": "../run"},
     "surrogate": '{"type":"demonstrate","motion":"\\ud800"}',
 }

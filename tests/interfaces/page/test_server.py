@@ -7,22 +7,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 from pages import page, served
 
-from motionese.experiment import Scene
+from motionese.imitation import Scene
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
 from motionese.recordings import read
-from motionese.teaching.beginning import begun_with
-from motionese.teaching.notebook import Notebook
-from motionese.teaching.saving import SessionFolder
-from motionese.teaching.session import Teaching
+from motionese.teaching.session_folder import SessionFolder
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory, small_settings, compiled):
     """The folder of a session whose robot knows nothing and learns in a moment."""
     folder, scene = SessionFolder(tmp_path_factory.mktemp("session")), Scene(small_settings, 0)
-    folder.began = "fresh"
-    folder.save(Teaching(scene, begun_with("fresh", scene), Notebook()))
+    folder.begin("fresh", scene)
     return folder.path
 
 
@@ -50,8 +46,13 @@ def test_a_page_is_told_all_it_needs(client):
     with page(client) as own:
         scene, session = own.hear("scene"), own.hear("session")
     assert own.heard[0] == {"type": "owner", "yours": True, "sentence": ""}
-    assert set(scene["view"]["corners"]) == {"UR", "UL", "LR", "LL"}
-    assert len(scene["motions"]) == 5 + 6 + 7 and scene["rate_hz"] == 10
+    task = scene["task"]
+    assert set(task["places"]) == {"UR", "UL", "LR", "LL"}
+    assert task["places"]["LR"]["title"] == "the right button"
+    assert [effect["places"] for effect in task["effects"]] == [["LR"], ["LL"]]
+    assert {(p["sign"], p["start"]) for p in task["primitives"]} >= {("↓", "UR"), ("←", "UR")}
+    assert len(task["motions"]) == 5 + 6 + 7 and scene["rate_hz"] == 10
+    assert [level["name"] for level in scene["levels"]] == ["io", "cf", "cs"]
     assert {"name", "body", "type", "size", "pos", "quat", "rgba"} == set(
         scene["robot"]["geoms"][0]
     )
@@ -74,7 +75,7 @@ def test_drawing_understanding_verdict_imitation_learning(client, session):
         count = sum(len(m["poses"]) for m in frames)
         assert count == 2 * len(verdict["drawn"]) - 1 and frames[-1]["last"]
         assert [m["from"] for m in frames] == list(range(0, count, 4))
-        assert frames[0]["rate_hz"] == 20 and len(frames[0]["cf"][0]) == 40
+        assert frames[0]["rate_hz"] == 20 and len(frames[0]["activity"]["cf"][0]) == 40
 
         own.say({"type": "learn"})
         learned = own.hear("learned")
@@ -156,7 +157,7 @@ def test_undo_and_growth_and_the_map(client):
         drawn = own.hear("map")
         assert set(map(len, drawn["primitives"].values())) == {len(drawn["axis"]) ** 2}
         idle(own)
-        own.say({"type": "hover", "cs": [0.5, -1.0], "primitive": "UR ↓"})
+        own.say({"type": "hover", "slow": [0.5, -1.0], "primitive": "UR ↓"})
         assert len(own.hear("hovered")["path"]) == 28
 
 
@@ -183,5 +184,5 @@ def test_thousands_of_messages_leave_server_and_session_whole(client, session):
     assert client.hub.worker_pid == pid, "the robot's process went on all the time"
     assert client.get("/").status_code == 200
     outside = {path.name for path in session.parent.iterdir()}
-    assert SessionFolder(session).begun("").notebook.entries[-1].motion == "UR ←"
+    assert SessionFolder(session).read().notebook.entries[-1].motion == "UR ←"
     assert outside == {path.name for path in session.parent.iterdir()}

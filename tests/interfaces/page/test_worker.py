@@ -11,21 +11,17 @@ from drawn import strokes
 from pages import page, served
 
 from motionese.errors import StorageError
-from motionese.experiment import Scene
+from motionese.imitation import Scene
 from motionese.interfaces.page.robot import Robot
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
-from motionese.teaching.beginning import begun_with
-from motionese.teaching.notebook import Notebook
-from motionese.teaching.saving import SessionFolder
-from motionese.teaching.session import Teaching
+from motionese.teaching.session_folder import SessionFolder
 
 
 @pytest.fixture
 def session(tmp_path, small_settings, compiled):
     folder, scene = SessionFolder(tmp_path / "session"), Scene(small_settings, 0)
-    folder.began = "fresh"
-    folder.save(Teaching(scene, begun_with("fresh", scene), Notebook()))
+    folder.begin("fresh", scene)
     return folder.path
 
 
@@ -58,12 +54,12 @@ def test_a_killed_robot_comes_back_with_all_but_the_motion_under_way(session):
         for message in strokes("UR ←"):
             own.say(message)
         assert own.hear("verdict")["shown"] == "UR ←"
-    assert len(SessionFolder(session).begun("").notebook.entries) == 2
+    assert len(SessionFolder(session).read().notebook.entries) == 2
 
 
 def test_learning_is_stopped_without_a_trace(session, draw_with):
     folder, told = SessionFolder(session), []
-    robot = Robot(folder, folder.begun(""), told.append, stop_asked=lambda: True)
+    robot = Robot(folder, folder.read(), told.append, stop_asked=lambda: True)
     draw_with(robot, "UR ↓")
     before, learner = robot.teaching.notebook, robot.teaching.learner
     robot.take({"type": "learn"})
@@ -80,7 +76,7 @@ def test_learning_is_stopped_without_a_trace(session, draw_with):
 
 def test_a_full_disk_is_told_and_the_robot_goes_on(session, draw_with, monkeypatch):
     folder, told = SessionFolder(session), []
-    robot = Robot(folder, folder.begun(""), told.append, stop_asked=lambda: False)
+    robot = Robot(folder, folder.read(), told.append, stop_asked=lambda: False)
 
     def full(teaching):
         raise StorageError("no space left")

@@ -22,10 +22,13 @@ from motionese.body.tabletop_robot import TabletopRobot
 from motionese.channels import Channel, Channels
 from motionese.task import Task
 
-SHOULDER = np.array([0.06, -0.18, 1.02])
+SHOULDER = np.array([0.06, -0.18, 1.06])
 """Where the axes of pan and lift meet [m, world]."""
-UPPER_ARM_M = 0.26
-MARKER, FINGERTIP = 0.246 + 0.052j, 0.28 + 0.0j
+EYE_POSITION = np.array([-0.03, 0.26, 1.17])
+"""The camera [m, world]."""
+UPPER_ARM_M = 0.28
+"""From the shoulder to the elbow [m]."""
+MARKER, FINGERTIP = 0.240 + 0.050j, 0.28 + 0.0j
 """In the forearm's plane [m]: along it, and above it as the imaginary part."""
 COMMAND_RANGE: Float[ndarray, "2 3"] = np.radians([[-35.0, -25.0, 30.0], [35.0, 60.0, 100.0]])
 """Lowest and highest angles [rad] of pan, lift and elbow that may be commanded."""
@@ -51,14 +54,15 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
     channels = Channels(
         [
             Channel("shoulder_pan", "rad", -0.32, 0.32),
-            Channel("shoulder_lift", "rad", -0.03, 0.57),
-            Channel("elbow", "rad", 0.90, 1.24),
+            Channel("shoulder_lift", "rad", -0.15, 0.52),
+            Channel("elbow", "rad", 1.03, 1.24),
             Channel("u", "px", -29.0, 22.0),
             Channel("v", "px", -33.0, 31.0),
         ]
     )
     joints = JOINTS
     command_range = COMMAND_RANGE
+    eye_position = EYE_POSITION
     folded = np.radians([-115.0, 60.0, 110.0])  # to its right, behind the camera
     reach = (
         f"its marker moves up to {100 * (UPPER_ARM_M + abs(MARKER)):.1f} cm around "
@@ -71,7 +75,6 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
     def __init__(self, settings: DeskArmSettings, task: Task) -> None:
         super().__init__(settings, task)
         camera = self.model.camera("eye").id
-        self.eye_position = self.model.cam_pos[camera].copy()
         self._camera_axes = self.model.cam_mat0[camera].reshape(3, 3).copy()
         self._focal_px = focal_px(float(self.model.cam_fovy[camera]))
         places = np.array([place.position for place in task.places.values()])
@@ -117,7 +120,7 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
         return gaze
 
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return the points of a path [m, world] themselves; the arm's nearest where out of reach."""
+        """Return the points of a path [m, world], or the nearest that the arm reaches."""
         return self.marker_at(self.angles_nearest(path))
 
     def bearing(self, values: Float[ndarray, "*shape 5"]) -> Float[ndarray, "*shape 2"]:

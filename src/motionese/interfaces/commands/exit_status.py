@@ -5,10 +5,14 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import TYPE_CHECKING
 
 import typer
 
 from motionese.errors import MotioneseError
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 WRONG, INTERRUPTED = 2, 130
 """Exit statuses: of what the user can put right, and of Ctrl-C."""
@@ -16,17 +20,20 @@ AGAIN_AFTER_S = 0.1
 
 
 @contextmanager
-def plainly(stopped: str | Callable[[], str]) -> Iterator[None]:
-    """Say in one sentence what the user can put right, or that Ctrl-C has stopped the command.
+def plainly(stopped: str | Callable[[], str], *, soft_wrap: bool = True) -> Iterator["Console"]:
+    """Yield where a command prints; say in one sentence what the user can put right, or Ctrl-C.
 
     That includes files that the system refuses to read or write, as on a full disk.
 
     Args:
         stopped: What to say after Ctrl-C, or a function that returns it then.
+        soft_wrap: Whether lines may be longer than the terminal is wide.
     """
     try:
         with interruptible():
-            yield
+            from rich.console import Console  # noqa: PLC0415
+
+            yield Console(markup=False, highlight=False, soft_wrap=soft_wrap)
     except MotioneseError as error:
         raise _left(str(error)) from error
     except OSError as error:

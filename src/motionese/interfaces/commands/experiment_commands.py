@@ -2,15 +2,19 @@
 # ruff: noqa: PLC0415
 
 import os
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from motionese.errors import SettingError, unknown
+from motionese.errors import SettingError, needs, unknown
 from motionese.interfaces.commands.exit_status import WRONG, plainly
 
 PANEL = "The experiment"
+EXPERIMENT = ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas", "scipy")
+MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn", "websockets")}
+"""What an extra brings."""
 
 
 def add_to(app: typer.Typer) -> None:
@@ -59,15 +63,14 @@ def reproduce(
 
     Stopped or killed at any time, the same command goes on, and ends with the same results.
     """
-    with plainly("stopped; the same command goes on"):
+    with plainly("stopped; the same command goes on") as console:
         # Networks this small are fastest on the CPU; read when jax is imported.
         os.environ.setdefault("JAX_PLATFORMS", "cpu")
-        from rich.console import Console
-
+        _check_extra("reproduce")
         from motionese.interfaces.commands.reproduce import reproduce as perform
 
         too_few = perform(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             conditions=conditions or (),
             seeds=seeds,
             preset=preset,
@@ -82,12 +85,11 @@ def reproduce(
 
 def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RUN")]) -> None:
     """Write the report of a run folder again, also while its runs go on."""
-    with plainly("stopped; the report was not written"):
-        from rich.console import Console
-
+    with plainly("stopped; the report was not written") as console:
+        _check_extra("report")
         from motionese.interfaces.commands.results import write_results
 
-        too_few = write_results(run, Console(markup=False, highlight=False, soft_wrap=True))
+        too_few = write_results(run, console)
     _end(too_few)
 
 
@@ -96,6 +98,7 @@ def presets(
 ) -> None:
     """List the presets, or print one to copy and edit."""
     with plainly("stopped"):
+        _check_extra("presets")
         from motionese.experiment.presets import PRESETS, preset_text
 
         if name is None:
@@ -128,13 +131,12 @@ def teach(
     ] = False,
 ) -> None:
     """Teach the simulated robot yourself, on a page in your browser."""
-    with plainly("stopped; the session is kept, the same command goes on"):
-        from rich.console import Console
-
+    with plainly("stopped; the session is kept, the same command goes on") as console:
+        _check_extra("teach", "web")
         from motionese.interfaces.page.server import teach as serve
 
         serve(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             begin=begin,
             session=session,
             host=host,
@@ -142,6 +144,14 @@ def teach(
             token=token,
             browser=not no_browser,
         )
+
+
+def _check_extra(command: str, extra: str = "experiment") -> None:
+    """Refuse a command whose packages are not installed, before they are imported."""
+    for module in MODULES[extra]:
+        if find_spec(module) is None:
+            package = {"mujoco": "mujoco-core"}.get(module, module)
+            raise needs(package, extra, command)
 
 
 def _end(too_few: str, *, trial: bool = False) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -17,14 +18,7 @@ MOST_EPISODES = 40
 
 
 def inspect_recordings(
-    console: Console,
-    source: Path,
-    plot: Path,
-    *,
-    columns: Mapping[str, str | None],
-    channels: tuple[str, ...] | None,
-    exclude: tuple[str, ...],
-    rate_hz: float | None,
+    console: Console, source: Path, plot: Path, reading: Mapping[str, Any]
 ) -> None:
     """Print what is in a file or folder of recordings, and draw it.
 
@@ -32,16 +26,14 @@ def inspect_recordings(
         console: Where it is printed.
         source: The file or folder.
         plot: The figure to write, .svg or .png.
-        columns: Format, episode and time column, as `recordings.read` takes them.
-        channels: Channels to look at; the usual ones for None.
-        exclude: Channels to leave out.
-        rate_hz: Rows per second, where the recording does not tell.
+        reading: Format, columns, channels and rate, as `Motions.read` takes them.
     """
     check_output("--plot", plot, PICTURES)
-    choice = choose(channels=channels, exclude=exclude, rate_hz=rate_hz)
+    columns = {name: reading[name] for name in ("format", "episode", "time")}
+    choice = choose(**{name: told for name, told in reading.items() if name not in columns})
     found = chosen(read(source, **columns), choice)
     numbers = survey(found)
-    rate = numbers.rate_hz or rate_hz
+    rate = numbers.rate_hz or choice.rate_hz
     console.print(_heading(found, numbers, rate), soft_wrap=True)
     console.print(_channels(numbers))
     console.print(_episodes(numbers, rate))

@@ -4,13 +4,18 @@
 import os
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from motionese.interfaces.commands import recording_options as options
 from motionese.interfaces.commands.exit_status import plainly
 from motionese.interfaces.commands.recording_commands import PANEL
+from motionese.interfaces.commands.recording_options import (
+    as_read,
+    read_values,
+    separated,
+    with_recording_options,
+)
 from motionese.one_core import one_core
 
 Model = Annotated[Path, typer.Argument(metavar="MODEL", help="A model that `train` wrote.")]
@@ -25,9 +30,11 @@ def add_to(app: typer.Typer) -> None:
     app.command(rich_help_panel=PANEL)(generate)
 
 
+@with_recording_options()
 def train(
     data: Annotated[Path, typer.Argument(metavar="DATA", help="Recordings, in any format.")],
     out: Annotated[Path, typer.Option(metavar="MODEL.safetensors", help="The file to write.")],
+    reading: dict[str, Any],
     levels: Annotated[
         str,
         typer.Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps."),
@@ -58,28 +65,14 @@ def train(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE …", help="E.g. teacher_forcing=0.3 bound=10."),
     ] = None,
-    channels: options.Channels = None,
-    exclude: options.Exclude = None,
-    format: options.Format = None,
-    episode: options.EpisodeColumn = None,
-    time: options.TimeColumn = None,
-    rate: options.Rate = None,
-    resample: options.Resample = None,
-    trim: options.Trim = 0.0,
-    nan: options.Nan = "refuse",
-    units: options.Units = None,
-    ranges: options.Ranges = None,
-    margin: options.Margin = None,
 ) -> None:
     """Train a network on recordings; tell how good it is in closed loop."""
-    with plainly(partial(_stopped, out)):
+    with plainly(partial(_stopped, out)) as console:
         os.environ.update(one_core())
-        from rich.console import Console
-
         from motionese.interfaces.commands.train import read_training, train_model
 
         train_model(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             data,
             out,
             levels=levels,
@@ -88,17 +81,16 @@ def train(
             seed=seed,
             resume=resume,
             settings=read_training(epochs, patience, overrides or ()),
-            logs=options.separated(log),
-            columns={"format": format, "episode": episode, "time": time},
-            choice=options.choice(
-                channels, exclude, rate, resample, trim, nan, units, ranges, margin
-            ),
+            logs=separated(log),
+            reading=as_read(**reading),
         )
 
 
+@with_recording_options("unit", "range", "margin")
 def recognise(
     model: Model,
     motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A recording of motions.")],
+    reading: dict[str, Any],
     observed: Annotated[
         list[str] | None,
         typer.Option(metavar="PATTERN …", help="Channels to look at; default: all."),
@@ -111,33 +103,21 @@ def recognise(
         Path | None, typer.Option(metavar="FILE.json", help="Write the initial states.")
     ] = None,
     seed: Annotated[int, typer.Option(min=0, max=LARGEST_SEED, help="Of the random starts.")] = 0,
-    channels: options.Channels = None,
-    exclude: options.Exclude = None,
-    format: options.Format = None,
-    episode: options.EpisodeColumn = None,
-    time: options.TimeColumn = None,
-    rate: options.Rate = None,
-    resample: options.Resample = None,
-    trim: options.Trim = 0.0,
-    nan: options.Nan = "refuse",
 ) -> None:
     """Find the initial states from which a model generates a motion, from what is observed."""
-    with plainly("stopped; nothing was written"):
+    with plainly("stopped; nothing was written") as console:
         os.environ.update(one_core())
-        from rich.console import Console
-
         from motionese.interfaces.commands.recognise import recognise_motions
 
         recognise_motions(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             model,
             motion,
-            observed=options.separated(observed) or None,
+            observed=separated(observed) or None,
             out=out,
             initial=initial,
             seed=seed,
-            columns={"format": format, "episode": episode, "time": time},
-            choice=options.choice(channels, exclude, rate, resample, trim, nan, None, None, None),
+            reading=as_read(**reading),
         )
 
 
@@ -170,20 +150,18 @@ def generate(
     ] = None,
 ) -> None:
     """Generate a motion in closed loop, as a recording or a picture."""
-    with plainly("stopped; nothing was written"):
+    with plainly("stopped; nothing was written") as console:
         os.environ.update(one_core())
-        from rich.console import Console
-
         from motionese.interfaces.commands.generate import generate_motion
 
         generate_motion(
-            Console(markup=False, highlight=False, soft_wrap=True),
+            console,
             model,
-            like=options.separated(like),
+            like=separated(like),
             initial=initial,
             steps=steps,
             duration=duration_scale,
-            start=options.read_values("--start", start),
+            start=read_values("--start", start),
             blend=blend,
             out=out,
         )

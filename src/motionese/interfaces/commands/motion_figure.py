@@ -11,8 +11,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from numpy import ndarray
 
-from motionese.analysis.style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
 from motionese.errors import StorageError
+from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
 from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30

@@ -1,6 +1,7 @@
 """A motion and a model in, initial states and the recognised motion out."""
 
 from collections.abc import Mapping, Sequence
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,12 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from motionese.channels import Channels
+from motionese.errors import ChannelError, unknown
 from motionese.interfaces.commands.initial_states import write_initial_states
-from motionese.interfaces.commands.model_motions import names_matching, read_for
 from motionese.interfaces.commands.outputs import RECORDINGS, check_output
 from motionese.interfaces.commands.tables import number_table
-from motionese.learning import Fit, Found, Motions, load, recognise_all
+from motionese.learning import Fit, Found, Motions, load, read_for, recognise_all
 
 
 def recognise_motions(
@@ -27,8 +29,7 @@ def recognise_motions(
     out: Path | None,
     initial: Path | None,
     seed: int,
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
+    reading: Mapping[str, Any],
 ) -> None:
     """Recognise every motion of a recording, and tell how well each was recognised.
 
@@ -40,8 +41,7 @@ def recognise_motions(
         out: Where to write the recognised motions, all channels; nowhere for None.
         initial: Where to write the initial states (.json); nowhere for None.
         seed: Of the random starts.
-        columns: Format, episode and time column, as `Motions.read` takes them.
-        choice: What else `Motions.read` takes.
+        reading: How, as `Motions.read` takes it.
     """
     if initial is not None:
         check_output("--initial", initial, (".json",))
@@ -50,8 +50,8 @@ def recognise_motions(
     fit = load(model)
     assert fit.network.channels is not None, "a trained network carries channels"
     names = fit.network.channels.names
-    seen = list(names) if observed is None else names_matching(fit.network.channels, observed)
-    motions = read_for(fit, source, columns=columns, choice=choice, needed=seen)
+    seen = list(names) if observed is None else _matching(fit.network.channels, observed)
+    motions = read_for(fit, source, needed=seen, **reading)
     console.print(f"{source}: looked at {', '.join(seen)}")
     found = _recognised(console, fit, motions.showing(seen), jax.random.key(seed))
     console.print(_table(fit, motions, found, seen))
@@ -66,6 +66,17 @@ def recognise_motions(
         )
         paths.write(out)
         console.print(f"Recognised motions: {out}")
+
+
+def _matching(channels: Channels, patterns: Sequence[str]) -> list[str]:
+    """Return the model's channels of these names or patterns, in the model's order."""
+    taken: set[str] = set()
+    for pattern in patterns:
+        fitting = {n for n in channels.names if n == pattern or fnmatchcase(n, pattern)}
+        if not fitting:
+            raise ChannelError(unknown("channel", pattern, channels.names))
+        taken |= fitting
+    return [name for name in channels.names if name in taken]
 
 
 def _recognised(console: Console, fit: Fit, motions: Motions, key: Array) -> list[Found]:

@@ -2,12 +2,12 @@
 # ruff: noqa: PLC0415
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from motionese.interfaces.commands import recording_options as options
 from motionese.interfaces.commands.exit_status import plainly
+from motionese.interfaces.commands.recording_options import as_read, with_recording_options
 
 PANEL = "Your own robot"
 
@@ -21,68 +21,40 @@ def add_to(app: typer.Typer) -> None:
     app.command("export", rich_help_panel=PANEL)(export)
 
 
+@with_recording_options()
 def import_recordings(
     source: Source,
     out: Annotated[Path, typer.Option(metavar="DATA.npz", help="The file to write.")],
-    channels: options.Channels = None,
-    exclude: options.Exclude = None,
-    format: options.Format = None,
-    episode: options.EpisodeColumn = None,
-    time: options.TimeColumn = None,
-    rate: options.Rate = None,
-    resample: options.Resample = None,
-    trim: options.Trim = 0.0,
-    nan: options.Nan = "refuse",
-    units: options.Units = None,
-    ranges: options.Ranges = None,
-    margin: options.Margin = None,
+    reading: dict[str, Any],
 ) -> None:
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
 
     SOURCE is a CSV or a folder of them, a LeRobot folder, robomimic HDF5, an EIPL folder, MCAP
     with JSON messages, or .npz that motionese wrote.
     """
-    with plainly("stopped; nothing was written"):
-        from rich.console import Console
+    with plainly("stopped; nothing was written") as console:
+        from motionese.interfaces.commands.motion_text import description
+        from motionese.learning import Motions
 
-        from motionese.interfaces.commands.convert import import_motions
-
-        chosen = options.choice(channels, exclude, rate, resample, trim, nan, units, ranges, margin)
-        import_motions(
-            Console(markup=False, highlight=False, soft_wrap=True),
-            source,
-            out,
-            columns={"format": format, "episode": episode, "time": time},
-            choice=chosen,
-        )
+        motions = Motions.read(source, **as_read(**reading))
+        motions.write(out)
+        console.print(f"{out}: {description(motions)}")
 
 
+@with_recording_options("resample", "trim", "nan", "unit", "range", "margin")
 def inspect(
     source: Source,
+    reading: dict[str, Any],
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE.svg|.png", help="The plot; default: NAME.svg here.")
     ] = None,
-    channels: options.Channels = None,
-    exclude: options.Exclude = None,
-    format: options.Format = None,
-    episode: options.EpisodeColumn = None,
-    time: options.TimeColumn = None,
-    rate: options.Rate = None,
 ) -> None:
     """Show what is in recordings: episodes, lengths, rate, ranges, still shares, gaps, NaN."""
-    with plainly("stopped; nothing was written"):
-        from rich.console import Console
-
+    with plainly("stopped; nothing was written", soft_wrap=False) as console:
         from motionese.interfaces.commands.inspect import inspect_recordings
 
         inspect_recordings(
-            Console(markup=False, highlight=False),
-            source,
-            plot or Path(f"{source.resolve().stem}.svg"),
-            columns={"format": format, "episode": episode, "time": time},
-            channels=options.separated(channels) or None,
-            exclude=options.separated(exclude),
-            rate_hz=rate,
+            console, source, plot or Path(f"{source.resolve().stem}.svg"), as_read(**reading)
         )
 
 
@@ -105,17 +77,13 @@ def export(
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""
-    with plainly("stopped; nothing was written"):
-        from rich.console import Console
+    with plainly("stopped; nothing was written") as console:
+        from motionese.errors import SettingError
+        from motionese.interfaces.commands.export import export_model, export_motions
 
-        from motionese.interfaces.commands.convert import export_model, export_motions
-
-        console = Console(markup=False, highlight=False, soft_wrap=True)
         if onnx is not None and out is None and to is None:
             export_model(console, source, onnx)
         elif out is not None and onnx is None:
             export_motions(console, source, out, to)
         else:
-            from motionese.errors import SettingError
-
             raise SettingError("say what to write: --onnx FILE for a model, or --out PATH for data")

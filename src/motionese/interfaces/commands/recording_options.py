@@ -1,6 +1,8 @@
 """Options that say how recordings are read, the same for every command that reads them."""
 
-from collections.abc import Mapping, Sequence
+import inspect
+from collections.abc import Callable, Sequence
+from functools import wraps
 from typing import Annotated, Any
 
 import typer
@@ -8,63 +10,78 @@ import typer
 from motionese.errors import SettingError
 
 PANEL = "How the recordings are read"
+TEXT, TEXTS, NUMBER = str | None, list[str] | None, float | None
 
 
-def _option(*names: str, metavar: str, help: str) -> Any:
-    return typer.Option(*names, metavar=metavar, help=help, rich_help_panel=PANEL)
+def _option(
+    name: str, metavar: str, help: str, kind: Any, default: Any = None
+) -> inspect.Parameter:
+    option = typer.Option(f"--{name}", metavar=metavar, help=help, rich_help_panel=PANEL)
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
+    )
 
 
-Channels = Annotated[
-    list[str] | None,
-    _option("--channels", metavar="PATTERN …", help="Channels to take, in this order: 'arm_*'."),
-]
-Exclude = Annotated[
-    list[str] | None, _option("--exclude", metavar="PATTERN …", help="Channels to leave out.")
-]
-Format = Annotated[
-    str | None,
-    _option(
-        "--format",
-        metavar="csv|npz|eipl|robomimic|lerobot|mcap",
-        help="What SOURCE is; else found out.",
-    ),
-]
-EpisodeColumn = Annotated[
-    str | None,
-    _option("--episode", metavar="COLUMN", help="The column of a CSV that names the episode."),
-]
-TimeColumn = Annotated[
-    str | None, _option("--time", metavar="COLUMN", help="The column of a CSV that is the time.")
-]
-Rate = Annotated[
-    float | None,
-    _option("--rate", metavar="HZ", help="Rows a second, where the recording does not tell."),
-]
-Resample = Annotated[
-    float | None, _option("--resample", metavar="HZ", help="Rows a second to resample to.")
-]
-Trim = Annotated[
-    float,
-    _option(
-        "--trim",
-        metavar="SHARE",
-        help="Cut still ends: rows in which nothing moves by more than this share of its range.",
-    ),
-]
-Nan = Annotated[
-    str, _option("--nan", metavar="refuse|gap", help="What a NaN is: an error, or a gap.")
-]
-Units = Annotated[
-    list[str] | None, _option("--unit", metavar="PATTERN=UNIT …", help="Units: 'arm_*=rad'.")
-]
-Ranges = Annotated[
-    list[str] | None,
-    _option("--range", metavar="PATTERN=LOW:HIGH …", help="Ranges; else the data's and a margin."),
-]
-Margin = Annotated[
-    float | None,
-    _option("--margin", metavar="SHARE", help="How far ranges reach beyond the data; 0.05."),
-]
+FORMATS = "csv|npz|eipl|robomimic|lerobot|mcap"
+STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
+OPTIONS = (
+    _option("channels", "PATTERN …", "Channels to take, in this order: 'arm_*'.", TEXTS),
+    _option("exclude", "PATTERN …", "Channels to leave out.", TEXTS),
+    _option("format", FORMATS, "What SOURCE is; else found out.", TEXT),
+    _option("episode", "COLUMN", "The column of a CSV that names the episode.", TEXT),
+    _option("time", "COLUMN", "The column of a CSV that is the time.", TEXT),
+    _option("rate", "HZ", "Rows a second, where the recording does not tell.", NUMBER),
+    _option("resample", "HZ", "Rows a second to resample to.", NUMBER),
+    _option("trim", "SHARE", STILL, float, 0.0),
+    _option("nan", "refuse|gap", "What a NaN is: an error, or a gap.", str, "refuse"),
+    _option("unit", "PATTERN=UNIT …", "Units: 'arm_*=rad'.", TEXTS),
+    _option("range", "PATTERN=LOW:HIGH …", "Ranges; else the data's and a margin.", TEXTS),
+    _option("margin", "SHARE", "How far ranges reach beyond the data; 0.05.", NUMBER),
+)
+
+Command = Callable[..., None]
+
+
+def with_recording_options(*left_out: str) -> Callable[[Command], Command]:
+    """Return a decorator that gives a command these options, but for those left out.
+
+    The command takes what is given for them as `reading`, for `as_read`.
+    """
+    options = [option for option in OPTIONS if option.name not in left_out]
+
+    def decorate(command: Command) -> Command:
+        @wraps(command)
+        def called(**given: Any) -> None:
+            command(reading={option.name: given.pop(option.name) for option in options}, **given)
+
+        own = inspect.signature(command).parameters.values()
+        kept = [parameter for parameter in own if parameter.name != "reading"]
+        called.__signature__ = inspect.Signature([*kept, *options])  # type: ignore[attr-defined]
+        return called
+
+    return decorate
+
+
+def as_read(
+    *,
+    channels: Sequence[str] | None,
+    exclude: Sequence[str] | None,
+    rate: float | None,
+    resample: float | None = None,
+    unit: Sequence[str] | None = None,
+    range: Sequence[str] | None = None,
+    **others: Any,
+) -> dict[str, Any]:
+    """Return what is given for these options as `Motions.read` takes it."""
+    return {
+        "channels": separated(channels) or None,
+        "exclude": separated(exclude),
+        "rate_hz": rate,
+        "resample_hz": resample,
+        "units": read_units(unit),
+        "ranges": read_ranges(range),
+        **others,
+    }
 
 
 def separated(texts: Sequence[str] | None) -> tuple[str, ...]:
@@ -102,31 +119,6 @@ def read_values(option: str, texts: Sequence[str] | None) -> dict[str, float]:
         except ValueError as error:
             raise SettingError(f"{option} {text}: '{told}' is no number") from error
     return values
-
-
-def choice(
-    channels: Sequence[str] | None,
-    exclude: Sequence[str] | None,
-    rate: float | None,
-    resample: float | None,
-    trim: float,
-    nan: str,
-    units: Sequence[str] | None,
-    ranges: Sequence[str] | None,
-    margin: float | None,
-) -> Mapping[str, Any]:
-    """Return what was chosen on the command line as `Motions.read` takes it."""
-    return {
-        "channels": separated(channels) or None,
-        "exclude": separated(exclude),
-        "rate_hz": rate,
-        "resample_hz": resample,
-        "trim": trim,
-        "nan": nan,
-        "units": read_units(units),
-        "ranges": read_ranges(ranges),
-        "margin": margin,
-    }
 
 
 def _pair(option: str, text: str, example: str) -> tuple[str, str]:

@@ -9,14 +9,13 @@ from pydantic import ValidationError
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
-from motionese.interfaces.commands.held_out import split
 from motionese.interfaces.commands.model_commands import checkpoint_of
 from motionese.interfaces.commands.motion_text import description
 from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
 from motionese.interfaces.commands.tables import error_table, verdict
 from motionese.interfaces.commands.training_display import TrainingDisplay
 from motionese.interfaces.logs.training_logs import open_logs
-from motionese.learning import Fit, Motions, Progress, Training, save, train
+from motionese.learning import Fit, Motions, Progress, Training, save, split, train
 from motionese.learning.training.training_state import epochs_done
 from motionese.network import MTRNN, Level
 
@@ -38,8 +37,7 @@ def train_model(
     resume: bool,
     settings: Training,
     logs: Sequence[str],
-    columns: Mapping[str, str | None],
-    choice: Mapping[str, Any],
+    reading: Mapping[str, Any],
 ) -> Fit:
     """Train a network on recordings, save it, and tell how good it is.
 
@@ -51,18 +49,17 @@ def train_model(
         out: The model's file.
         levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first.
         io_tau: Time constant of the IO level [steps].
-        held_out: See `held_out.split`.
+        held_out: A share of the motions or their names, as in '0.2' or 'wave,lift'; see `split`.
         seed: Of the initial weights, the held-out motions and the state noise.
         resume: Whether to go on with a training that was stopped.
         settings: How to train.
         logs: Kinds of logs, see `logs.open_logs`.
-        columns: Format, episode and time column, as `Motions.read` takes them.
-        choice: What else `Motions.read` takes.
+        reading: How, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
     context = read_levels(levels)
-    motions = Motions.read(source, **columns, **choice)
-    learned, unseen = split(motions, held_out, seed)
+    motions = Motions.read(source, **reading)
+    learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
     drawn, noise = jax.random.split(jax.random.key(seed))
     network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
     done = epochs_done(checkpoint) if resume else 0
@@ -145,6 +142,19 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         name = str(first["loc"][0])
         what = first["msg"][:1].lower() + first["msg"][1:]
         raise SettingError(f"setting {name} = {given[name]!r}: {what}") from error
+
+
+def read_held_out(text: str | None, motions: Motions) -> float | list[str] | None:
+    """Return the share or the names that a text is; below 1 a number is always a share."""
+    if text is None:
+        return None
+    try:
+        share = float(text)
+    except ValueError:
+        share = None
+    if share is not None and (0 <= share < 1 or text not in motions.names):
+        return share
+    return [name.strip() for name in text.split(",")]
 
 
 def _size_and_tau(text: str) -> tuple[int, float]:

@@ -12,9 +12,10 @@ from starlette.staticfiles import StaticFiles
 
 from motionese.interfaces.page.admission import Admission, Gate
 from motionese.interfaces.page.hub import Hub
-from motionese.teaching.files_kept import DEMONSTRATIONS
 
 PAGE = Path(__file__).parent / "web"
+EXPORT = "demonstrations.npz"
+"""The file of demonstrations, `caregiver.DEMONSTRATIONS`; its room takes a second to import."""
 
 
 def application(
@@ -45,7 +46,7 @@ def application(
         return JSONResponse({"worker": hub.worker["state"]})
 
     async def export(request: Request) -> Response:
-        file = session / DEMONSTRATIONS
+        file = session / EXPORT
         if not file.is_file():
             return PlainTextResponse("Nothing was shown yet.", status_code=404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)

@@ -8,18 +8,18 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.body import EYE_POSITION, Geometry
-from motionese.caregiver import BUTTONS, PUSHING_BUTTONS, Motion
-from motionese.experiment import Scene
+from motionese.body import Geometry
+from motionese.caregiver import intended_way
+from motionese.imitation import Scene
 from motionese.interfaces.page.messages import Answer
 from motionese.learning import Progress
 from motionese.network import MTRNN
+from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.frames import Film
+from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.notebook import Entry
-from motionese.teaching.reading import corners_of
-from motionese.teaching.session import Change, Imitation, Shown, Teaching
-from motionese.teaching.slow_map import SlowMap
-from motionese.teaching.view import ASPECT, HEIGHT, View
+from motionese.teaching.session import Change, Observation, Teaching, Trial
+from motionese.teaching.view import ASPECT, View
 
 DIGITS = 4
 PART_S = 0.2
@@ -28,36 +28,61 @@ PART_S = 0.2
 
 def scene_message(scene: Scene, view: View, geometry: Geometry) -> Answer:
     """Return what does not change in a session: the view, the robot's shapes, the task."""
-    corners = {
-        name: listed(view.of_points(place))
-        for name, place in corners_of(scene.settings.caregiver).items()
-    }
     right, up, ahead = view.axes
+    task, body = scene.task, scene.body
     return {
         "type": "scene",
         "view": {
-            "corners": corners,
-            "buttons": {name: corners[name] for name in BUTTONS},
             "aspect": ASPECT,
             "camera": {
-                "position": listed(EYE_POSITION),
+                "position": listed(body.eye_position),
                 "right": listed(right),
                 "up": listed(up),
                 "ahead": listed(ahead),
-                "fov_y_deg": round(float(np.degrees(HEIGHT)), 2),
+                "fov_y_deg": round(float(np.degrees(view.height)), 2),
             },
         },
         "robot": {
             "bodies": geometry.bodies,
             "geoms": geometry.shapes,
-            "pose": listed(geometry.placed(scene.body.pose()[None]).ravel()),
+            "pose": listed(geometry.placed(body.pose()[None]).ravel()),
+            "joints": body.joints,
         },
+        "task": _task(task, view),
         "levels": [
             {"name": level.name, "size": level.size, "tau": level.tau}
-            for level in scene.settings.network.drawn_levels()
+            for level in scene.settings.network.drawn_levels(body.channels)
         ],
-        "motions": [m.name for length in (1, 2, 3) for m in PUSHING_BUTTONS.sequences(length)],
-        "rate_hz": scene.body.rate_hz,
+        "rate_hz": body.rate_hz,
+    }
+
+
+def _task(task: Task, view: View) -> Answer:
+    """Return places in the view, primitives, effects and where they come about, sequences."""
+    return {
+        "places": {
+            name: {"at": listed(view.of_points(task.position(name))), "title": place.title}
+            for name, place in task.places.items()
+        },
+        "primitives": [
+            {
+                "sign": primitive.sign,
+                "start": primitive.start,
+                "end": primitive.end,
+                "words": primitive.words,
+                "way": listed(view.of_points(intended_way(PrimitiveSequence((primitive,)), task))),
+            }
+            for primitive in task.primitives
+        ],
+        "effects": [
+            {
+                "name": effect,
+                "title": effect.replace("_", " "),
+                "places": [p.end for p in task.primitives if p.effect == effect],
+            }
+            for effect in task.effects
+        ],
+        "motions": [s.name for length in (1, 2, 3) for s in task.sequences(length)],
     }
 
 
@@ -91,49 +116,51 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
             {"n": n, "error_cm": round(error, 2)} for n, error in enumerate(notebook.curve, start=1)
         ],
         "can_grow": teaching.can_grow,
-        "can_map": SlowMap.possible(teaching),
-        "shown": teaching.shown.entry.number if teaching.shown else None,
+        "can_map": InteractiveMap.possible(teaching),
+        "shown": teaching.observed.entry.number if teaching.observed else None,
         "suggest": suggestion if teaching.should_grow else "",
         "busy": busy,
     }
 
 
-def verdict_message(shown: Shown, view: View, seconds: float) -> Answer:
+def verdict_message(observed: Observation, view: View, seconds: float) -> Answer:
     """Return the verdict on a demonstration, `seconds` after it had ended."""
-    verdict = shown.verdict
+    verdict = observed.verdict
     return {
         "type": "verdict",
-        "entry": shown.entry.number,
-        "motion": named(verdict.motion),
+        "entry": observed.entry.number,
+        "motion": named(verdict.recognised),
         "shown": named(verdict.shown),
         "confidence": round(verdict.confidence, DIGITS),
         "alternatives": [
-            {"motion": motion.name, "confidence": round(confidence, DIGITS)}
-            for motion, confidence in verdict.alternatives
+            {"motion": sequence.name, "confidence": round(confidence, DIGITS)}
+            for sequence, confidence in verdict.alternatives
         ],
-        "path": listed(view.of_points(shown.understood.path)),
-        "drawn": listed(view.of_points(shown.watched.path)),
-        "next": listed(view.of_points(shown.understood.next)),
+        "path": listed(view.of_points(observed.interpretation.path)),
+        "drawn": listed(view.of_points(observed.watched.path)),
+        "next": listed(view.of_points(observed.interpretation.next)),
         "error_cm": round(verdict.error_cm, 2),
         "sentence": verdict.sentence,
         "ms": round(1000 * seconds),
     }
 
 
-def shown_message(motion: Motion, seen: Float[ndarray, "T 2"], step_ms: float) -> Answer:
-    """Return how the scripted caregiver shows a motion, seen in the view."""
+def shown_message(
+    sequence: PrimitiveSequence, seen: Float[ndarray, "T 2"], step_ms: float
+) -> Answer:
+    """Return how the scripted caregiver shows a sequence, seen in the view."""
     path = [[round(step_ms * row), *place] for row, place in enumerate(listed(seen))]
-    return {"type": "shown", "motion": motion.name, "path": path}
+    return {"type": "shown", "motion": sequence.name, "path": path}
 
 
-def performed_message(entry: Entry, imitation: Imitation, seen: Float[ndarray, "T 2"]) -> Answer:
+def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -> Answer:
     """Return how a performance went, its hand seen in the view."""
-    deepest = imitation.performance.depths.max(axis=0).tolist()
+    effects = trial.performance.effects.items()
     return {
         "type": "performed",
         "entry": entry.number,
-        "error_cm": round(imitation.error_cm, 2),
-        "presses": {name: round(mm, 1) for name, mm in zip(BUTTONS, deepest, strict=True)},
+        "error_cm": round(trial.error_cm, 2),
+        "effects": {name: round(float(values.max()), 1) for name, values in effects},
         "attempt": len(entry.errors_cm),
         "path": listed(seen),
     }
@@ -179,10 +206,16 @@ def progress_message(what: str, done: int, of: int, now: Progress | None = None)
     return told
 
 
-def map_message(drawn: SlowMap) -> Answer:
+def map_message(drawn: InteractiveMap) -> Answer:
     """Return the map of the slow initial states."""
-    points = [{"motion": motion, "cs": slow} for motion, slow in drawn.points]
-    return {"type": "map", "axis": drawn.axis, "primitives": drawn.grids, "points": points}
+    points = [{"motion": motion, "slow": slow} for motion, slow in drawn.points]
+    return {
+        "type": "map",
+        "level": drawn.level,
+        "axis": drawn.axis,
+        "primitives": drawn.grids,
+        "points": points,
+    }
 
 
 def sentence_message(kind: str, sentence: str) -> Answer:
@@ -190,9 +223,9 @@ def sentence_message(kind: str, sentence: str) -> Answer:
     return {"type": "told", "kind": kind, "sentence": sentence}
 
 
-def named(motion: Motion | None) -> str:
-    """Return a motion's name; empty if there is none."""
-    return motion.name if motion else ""
+def named(sequence: PrimitiveSequence | None) -> str:
+    """Return a sequence's name; empty if there is none."""
+    return sequence.name if sequence else ""
 
 
 def listed(values: Float[ndarray, "*shape"]) -> list[Any]:

@@ -69,7 +69,7 @@ class Hover(Said):
     """The motion of a point of the map is wanted."""
 
     type: Literal["hover"]
-    cs: tuple[Slow, Slow]
+    slow: tuple[Slow, Slow]
     primitive: Annotated[str, Field(max_length=32)]
 
 

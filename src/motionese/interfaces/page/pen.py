@@ -2,16 +2,17 @@
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
 
+from motionese.caregiver import Demonstration, sequence_in
 from motionese.interfaces.page.descriptions import listed
 from motionese.interfaces.page.messages import Answer
-from motionese.teaching.drawing import Demonstration, Drawing, DrawingError, demonstrated
+from motionese.teaching.drawing import Drawing, DrawingError, at_tempo
 from motionese.teaching.notebook import Source
-from motionese.teaching.reading import arrows_passed, corners_of
-from motionese.teaching.recognising import Understood
+from motionese.teaching.recogniser import Interpretation, start_of
 from motionese.teaching.session import Teaching
 from motionese.teaching.verdict import SPREAD_CM
 from motionese.teaching.view import View
@@ -29,7 +30,8 @@ class Pen:
         self._drawing: Drawing | None = None
         self._source: Source = "drawn"
         self._new, self._told_at = False, 0.0
-        self.understood: Understood | None = None
+        self._name = ""
+        self.understood: Interpretation | None = None
 
     @property
     def down(self) -> bool:
@@ -43,7 +45,12 @@ class Pen:
 
     def set_down(self, source: Source) -> None:
         """Begin a drawing."""
-        self._drawing, self._source, self.understood = Drawing(), source, None
+        self._drawing, self._source = Drawing(), source
+        self.begin()
+
+    def begin(self) -> None:
+        """Forget what was understood of the motion before."""
+        self.understood, self._name = None, ""
 
     def move(self, points: list[tuple[float, float, float]]) -> None:
         """Draw on."""
@@ -68,26 +75,29 @@ class Pen:
         if drawing is None or len(drawing) < 2:
             return
         try:
-            demonstration, _ = self._demonstrated(drawing)
+            path = self._shown(drawing)[0]
         except DrawingError:
             return
-        self.tell_understood(demonstration.path, round(1000 * drawing.seconds))
+        self.tell_understood(path, round(1000 * drawing.seconds))
 
-    def tell_understood(self, path: Any, milliseconds: int) -> None:
+    def tell_understood(self, path: Float[ndarray, "T 3"], milliseconds: int) -> None:
         """Tell what the robot understands of a path [m, world] so far."""
         teaching = self._teaching
-        watched = teaching.watch(path)
+        watched = teaching.watch(Demonstration(path, (0,)))
         understood = teaching.recogniser.so_far(watched, self.understood)
         if understood is None:
             return
         self.understood = understood
         apart = 100 * float(np.linalg.norm(understood.path - watched.path, axis=1).mean())
-        corners = corners_of(teaching.scene.settings.caregiver)
+        # In the middle of a primitive a path is no sequence: what was completed before stands.
+        task = teaching.scene.task
+        sequence = sequence_in(understood.path, task)
+        self._name = sequence.name if sequence else self._name or start_of(path, task).start
         self._tell(
             {
                 "type": "understanding",
                 "t_ms": milliseconds,
-                "arrows": arrows_passed(understood.path, corners),
+                "arrows": self._name,
                 # How well what is understood fits what was seen, by the spread of the verdict.
                 "confidence": round(float(np.exp(-((apart / SPREAD_CM) ** 2) / 2)), 4),
                 "path": listed(self._view.of_points(understood.path)),
@@ -95,23 +105,24 @@ class Pen:
             }
         )
 
-    def finished(self) -> tuple[Demonstration, str]:
-        """End the drawing; return what it shows, and a hint or "".
+    def finished(self) -> tuple[Float[ndarray, "T 3"], Float[ndarray, "R 3"], str]:
+        """End the drawing; return the hand's path, the same in its own time, and a hint or "".
 
         Raises:
             DrawingError: It is too short or too long.
         """
         drawing, self._drawing, self._new = self._drawing, None, False
         if drawing is None or len(drawing) < 2:
-            raise DrawingError("That was very short: draw from one corner to another.")
-        demonstration, strayed = self._demonstrated(drawing)
+            raise DrawingError("That was very short: draw from one place to another.")
+        path, drawn, strayed = self._shown(drawing)
         if drawing.full:
-            return demonstration, "A drawing lasts at most 20 s: I saw its beginning."
+            return path, drawn, "A drawing lasts at most 20 s: I saw its beginning."
         if strayed:
-            return demonstration, "Part of it was out of my arm's reach: I saw the nearest way."
-        return demonstration, ""
+            return path, drawn, "Part of it was out of my arm's reach: I saw the nearest way."
+        return path, drawn, ""
 
-    def _demonstrated(self, drawing: Drawing) -> tuple[Demonstration, bool]:
+    def _shown(self, drawing: Drawing) -> tuple[Float[ndarray, "T 3"], Float[ndarray, "R 3"], bool]:
         scene = self._teaching.scene
-        positions, strayed = self._view.positions(drawing.sampled(scene.body.rate_hz))
-        return demonstrated(positions, scene.settings.caregiver), bool(strayed.any())
+        drawn, strayed = self._view.positions(drawing.sampled(scene.body.rate_hz))
+        path = at_tempo(drawn, scene.task, scene.settings.caregiver)
+        return path, drawn, bool(strayed.any())

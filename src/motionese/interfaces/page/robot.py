@@ -2,28 +2,52 @@
 
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
+from jaxtyping import Float
+from numpy import ndarray
+
 from motionese.body import Geometry
-from motionese.caregiver import PUSHING_BUTTONS
 from motionese.errors import MotioneseError, TaskError
-from motionese.experiment.keys import generator_for
+from motionese.experiment import read_settings
+from motionese.experiment.robot import robot_of
+from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
 from motionese.interfaces.page.descriptions import frames_message
 from motionese.interfaces.page.messages import Answer
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
-from motionese.teaching.drawing import Demonstration, DrawingError, most_rows
+from motionese.teaching.drawing import DrawingError, most_rows
 from motionese.teaching.frames import film
+from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.notebook import Source
-from motionese.teaching.saving import SessionFolder
-from motionese.teaching.session import Imitation, Teaching
-from motionese.teaching.slow_map import SlowMap
+from motionese.teaching.session import Teaching, Trial
+from motionese.teaching.session_folder import FRESH, SessionFolder
 from motionese.teaching.view import View
 
 GHOST_S = 0.2
 """While the scripted caregiver shows, what is understood is told this often."""
 NOTHING_SHOWN = "Show me a motion first: draw one, or let the caregiver show one."
+
+
+def open_session(folder: SessionFolder, begin: str) -> Teaching:
+    """Return the session of a folder, or one that begins there.
+
+    Args:
+        folder: The folder.
+        begin: "babbling", "fresh" or the path of a run; empty for what is there, or babbling.
+
+    Raises:
+        StorageError: What is in the folder is no session, or it began from something else.
+        RunFolderError: No such run.
+    """
+    if folder.exists:
+        return folder.read(begin)
+    if begin in ("", BABBLING, FRESH):
+        return folder.begin(begin or BABBLING, Scene(read_settings(), 0))
+    robot = robot_of(Path(begin))
+    return folder.begin(begin, Scene(robot.settings, robot.seed), robot.learner)
 
 
 class StoppedError(Exception):
@@ -46,10 +70,11 @@ class Robot:
     ) -> None:
         """Serve a session; `stop_asked` says, while the network learns, whether to stop."""
         self._folder, self._tell, self._stop_asked = folder, tell, stop_asked
-        self._view, self._geometry = View(), Geometry()
+        body = teaching.scene.body
+        self._view, self._geometry = View(body, teaching.scene.task), Geometry(body.model)
         self.going: Iterator[float] | None = None
         self._busy = ""
-        self._map: SlowMap | None = None
+        self._map: InteractiveMap | None = None
         self._become(teaching)
 
     def _become(self, teaching: Teaching) -> None:
@@ -60,7 +85,8 @@ class Robot:
     def introduce(self) -> None:
         """Tell what the page needs to begin with."""
         scene = self.teaching.scene
-        scene.body.reset(scene.postures["UR"], generator_for(scene.seed, "rest"))
+        rest = next(iter(scene.postures.values()))
+        scene.body.reset(rest, generator_for(scene.seed, "rest"))
         self._tell(descriptions.scene_message(scene, self._view, self._geometry))
         self.tell_session()
 
@@ -131,8 +157,8 @@ class Robot:
         if message["phase"] == "up" and self.pen.down:
             hint = ""
             try:
-                demonstration, hint = self.pen.finished()
-                self._show(demonstration, self.pen.source, message["received"])
+                path, drawn, hint = self.pen.finished()
+                self._show(path, drawn, self.pen.source, message["received"])
             except DrawingError as error:
                 hint = str(error)
             except MotioneseError as error:
@@ -140,9 +166,15 @@ class Robot:
             if hint:
                 self._hint(hint)
 
-    def _show(self, demonstration: Demonstration, source: Source, ended: float) -> None:
-        shown = self.teaching.show(demonstration, source, self.pen.understood)
-        self._tell(descriptions.verdict_message(shown, self._view, time.monotonic() - ended))
+    def _show(
+        self,
+        path: Float[ndarray, "T 3"],
+        drawn: Float[ndarray, "R 3"],
+        source: Source,
+        ended: float,
+    ) -> None:
+        observed = self.teaching.show(path, source, drawn, self.pen.understood)
+        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - ended))
         self._save()
 
     def _save(self) -> None:
@@ -151,50 +183,49 @@ class Robot:
 
     def _demonstrate(self, message: dict[str, Any]) -> Iterator[float]:
         scene = self.teaching.scene
+        manner = scene.settings.caregiver
         try:
-            motion = PUSHING_BUTTONS.motion(message["motion"])
-            if 14 * len(motion.primitives) > most_rows(scene.settings.caregiver):
-                raise TaskError(f"{motion.name} is too long to be shown")
+            sequence = scene.task.sequence(message["motion"])
+            if manner.rows(sequence) > most_rows(manner):
+                raise TaskError(f"{sequence.name} is too long to be shown")
         except TaskError as error:
             self._tell(descriptions.sentence_message("refusal", str(error)))
             return
         self.tell_session("demonstrating")
-        number = self.teaching.notebook.next
-        path = scene.caregiver.demonstrate(motion, generator_for(scene.seed, "shown", number))
+        rng = generator_for(scene.seed, "shown", self.teaching.notebook.next)
+        path = scene.caregiver().demonstrate(sequence, rng).path
         step = 1000 / scene.body.rate_hz
-        self._tell(descriptions.shown_message(motion, self._view.of_points(path), step))
+        self._tell(descriptions.shown_message(sequence, self._view.of_points(path), step))
         self.pen.lift()
-        self.pen.understood = None
+        self.pen.begin()
         rows = round(GHOST_S * scene.body.rate_hz)
         for row in range(rows, len(path), rows):
             yield GHOST_S
             self.pen.tell_understood(path[:row], round(step * row))
         yield GHOST_S
-        self._show(Demonstration(path, path), "scripted", time.monotonic())
+        self._show(path, path, "scripted", time.monotonic())
 
     def _imitate(self, message: dict[str, Any]) -> Iterator[float]:
-        if self.teaching.shown is None:
+        if self.teaching.observed is None:
             self._hint(NOTHING_SHOWN)
             return
         self.tell_session("performing")
         yield from self._perform(self.teaching.imitate())
 
-    def _perform(self, imitation: Imitation) -> Iterator[float]:
+    def _perform(self, trial: Trial) -> Iterator[float]:
         teaching = self.teaching
-        shown = teaching.shown
-        assert shown is not None, "only what was shown is imitated"
+        observed = teaching.observed
+        assert observed is not None, "only what was shown is imitated"
         self._save()
-        scene, network = teaching.scene, teaching.learner.network
-        steps = most_rows(scene.settings.caregiver)
-        performance = imitation.performance
-        played = film(scene, self._geometry, network, imitation.state, performance, steps)
+        network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
+        played = film(self._geometry, network, trial.performance, rate_hz)
         yield from frames_message(played, self._tell)
-        path = self._view.of_points(performance.path)
-        self._tell(descriptions.performed_message(shown.entry, imitation, path))
+        path = self._view.of_points(trial.performance.path)
+        self._tell(descriptions.performed_message(observed.entry, trial, path))
 
     def _learn(self, message: dict[str, Any]) -> Iterator[float]:
-        shown = self.teaching.shown
-        if shown is None:
+        observed = self.teaching.observed
+        if observed is None:
             self._hint(NOTHING_SHOWN)
             return
         self.tell_session("learning")
@@ -203,7 +234,7 @@ class Robot:
         self._map = None
         self._save()
         curve = self.teaching.notebook.curve
-        self._tell(descriptions.learned_message(shown.entry.number, change, curve))
+        self._tell(descriptions.learned_message(observed.entry.number, change, curve))
 
     def _grow(self, message: dict[str, Any]) -> Iterator[float]:
         if not self.teaching.can_grow:
@@ -218,21 +249,20 @@ class Robot:
 
     def _unless_stopped(self, change: Callable[[], Any]) -> Any:
         """Do what changes the session; a person who stops it finds all as it was before."""
-        teaching = self.teaching
-        before = (teaching.learner, teaching.notebook, teaching.shown)
+        before = self.teaching.standing
         try:
             return change()
         except (StoppedError, MotioneseError):
-            teaching.return_to(*before)
+            self.teaching.return_to(before)
             raise
 
     def _progress(self, what: str) -> Callable[[int, int, Progress], None]:
-        def told(done: int, of: int, now: Progress) -> None:
+        def report(done: int, of: int, now: Progress) -> None:
             self._tell(descriptions.progress_message(what, done, of, now))
             if self._stop_asked():
                 raise StoppedError
 
-        return told
+        return report
 
     def _forget(self, message: dict[str, Any]) -> Iterator[float]:
         said = self.teaching.forget(message["entry"], self._folder.learner)
@@ -242,24 +272,24 @@ class Robot:
         yield 0.0
 
     def _draw_map(self, message: dict[str, Any]) -> Iterator[float]:
-        if not SlowMap.possible(self.teaching):
+        if not InteractiveMap.possible(self.teaching):
             self._hint("There is no slow level yet: let the network grow first.")
             return
         self.tell_session("drawing the map")
         yield 0.0
-        self._map = self._map or SlowMap(self.teaching)
+        self._map = self._map or InteractiveMap(self.teaching)
         self._tell(descriptions.map_message(self._map))
 
     def _begin(self, message: dict[str, Any]) -> Iterator[float]:
         self.tell_session("beginning anew")
         yield 0.0
-        self._become(self._folder.begun_anew(message["with"], self.teaching))
+        self._become(self._folder.begin_anew(message["with"], self.teaching))
         self._tell({"type": "begun"})
         self._hint("A new robot. The session before is kept in the session's folder.")
 
     def _hover(self, message: dict[str, Any]) -> None:
         if self._map is None or self._busy:
             return
-        path = self._map.motion(message["primitive"], message["cs"])
+        path = self._map.motion(message["primitive"], message["slow"])
         if path is not None:
             self._tell({"type": "hovered", "path": descriptions.listed(self._view.of_points(path))})

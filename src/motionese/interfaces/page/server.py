@@ -14,8 +14,8 @@ from motionese.errors import SettingError, StorageError, needs
 from motionese.interfaces.page.messages import MOST_BYTES
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
-from motionese.teaching.files_kept import LOCK
 
+LOCK = ".lock"
 MOST_CONNECTIONS = 64
 
 

@@ -20,7 +20,7 @@ class Origin:
     """What a robot begins from, and where its session is kept.
 
     Attributes:
-        begin: "babbling", or a run folder; empty for what is there, or babbling.
+        begin: "babbling", "fresh", or a run folder; empty for what is there, or babbling.
         session: The session's folder.
     """
 
@@ -62,20 +62,19 @@ def _awake(
 ) -> "Robot | None":
     """Return the robot, everything compiled; None where it cannot begin."""
     # What takes time to import is imported by this process alone, so that the page comes at once.
-    from motionese.interfaces.page.robot import Robot  # noqa: PLC0415
-    from motionese.teaching.saving import SessionFolder  # noqa: PLC0415
-    from motionese.teaching.warming import warm  # noqa: PLC0415
+    from motionese.interfaces.page.robot import Robot, open_session  # noqa: PLC0415
+    from motionese.teaching.session_folder import SessionFolder  # noqa: PLC0415
 
     folder = SessionFolder(origin.session)
     goes_on = folder.exists
     try:
-        teaching = folder.begun(origin.begin)
+        teaching = open_session(folder, origin.begin)
     except MotioneseError as error:
         connection.send({"type": "refused", "sentence": str(error)})
         return None
     robot = Robot(folder, teaching, connection.send, stop_asked)
     robot.introduce()
-    warm(teaching)
+    teaching.warm_up()
     sentence = "The session goes on where it was." if goes_on else ""
     connection.send(worker_message("ready", sentence))
     return robot

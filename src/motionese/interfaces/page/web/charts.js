@@ -1,11 +1,14 @@
 // What goes on inside: joint angles and the activity of the levels, scrolling; the learning curve.
 
-import { colours, fitted, onScheme } from "./dom.js";
+import { colours, fitted, made, onScheme, titled } from "./dom.js";
 import uPlot from "./vendor/uplot.js";
 
 /** How much of the past is shown [s]. */
 const SHOWN_S = 5;
 const DEGREES = 180 / Math.PI;
+/** Levels of more units are shown as heat. */
+const MOST_LINES = 8;
+const LETTERS = "abcdef";
 
 const font = () => `11px ${getComputedStyle(document.body).fontFamily}`;
 
@@ -67,38 +70,89 @@ class Lines {
   }
 }
 
-/** Joint angles, IO and Cs as lines, Cf as a strip of heat: forty lines could not be told apart. */
-export class Activity {
-  constructor({ joints, io, cf, cs }) {
-    const line = (stroke, dash) => ({ stroke, ...(dash && { dash: [5, 4], width: 1.3 }) });
-    const unit = [-0.05, 1.05];
-    this.joints = new Lines(
-      joints,
-      (c) => [line(c.blue), line(c.orange), line(c.blue, true), line(c.orange, true)],
-      {
-        range: (_, low, high) => [Math.min(low ?? -20, -20) - 5, Math.max(high ?? 40, 40) + 5],
-        incrs: [20, 40, 80],
-        unit: "°",
-      },
-    );
-    this.io = new Lines(
-      io,
-      (c) => [c.blue, c.orange, c.sky, c.amber, c.green, c.pink].map((s) => line(s)),
-      { range: unit, incrs: [0.5] },
-    );
-    this.cs = new Lines(cs, (c) => [c.green, c.pink, c.blue, c.orange].map((s) => line(s)), {
-      range: unit,
-      incrs: [0.5],
+/** The activity of many units as a strip of heat: forty lines could not be told apart. */
+class Heat {
+  constructor(place, label) {
+    this.canvas = made("canvas", "", [], { role: "img", "aria-label": label });
+    place.append(this.canvas);
+    place.classList.add("heat");
+    this.show([[]], 0);
+    new ResizeObserver(() => this.show(this.data, this.end)).observe(this.canvas);
+    onScheme(() => this.show(this.data, this.end));
+  }
+
+  show(data, end) {
+    Object.assign(this, { data, end });
+    const { context, width, height } = fitted(this.canvas);
+    const c = colours();
+    context.fillStyle = c.band;
+    context.fillRect(0, 0, width, height);
+    const [times, ...units] = data;
+    if (times.length < 2) return;
+    const from = Math.max(end - SHOWN_S, 0);
+    const wide = ((times[1] - times[0]) / SHOWN_S) * width;
+    const tall = height / units.length;
+    context.fillStyle = c.blue;
+    times.forEach((time, i) => {
+      if (time < from - 1) return;
+      const x = ((time - from) / SHOWN_S) * width;
+      units.forEach((unit, k) => {
+        context.globalAlpha = Math.min(Math.max(unit[i], 0), 1);
+        context.fillRect(x, k * tall, wide + 0.5, tall);
+      });
     });
-    this.cf = cf;
+    context.globalAlpha = 1;
+  }
+}
+
+/** Joint angles, and the activity of the network's levels: lines of few units, heat of many. */
+export class Activity {
+  constructor(place) {
+    this.place = place;
+    this.built = "";
+    this.charts = {};
     this.clear();
-    new ResizeObserver(() => this.#heat(this.end)).observe(cf);
-    onScheme(() => this.#heat(this.end));
+  }
+
+  /** Make the charts of some joints and levels. */
+  build(joints, levels) {
+    if (this.built === JSON.stringify([joints, levels])) return;
+    this.built = JSON.stringify([joints, levels]);
+    this.widths = { actual: joints.length, commanded: joints.length };
+    const keys = [...joints.map((joint, i) => made("i", `key ${LETTERS[i]}`, joint))];
+    const figures = [
+      figure("joints", ["Arm ", ...keys.flatMap((key) => [key, " "]), made("i", "key dashed", "goal")]),
+      ...levels.map(({ name }, i) =>
+        figure(name, [`${titled(name)} `, made("small", "", role(i, levels.length))]),
+      ),
+    ];
+    this.place.replaceChildren(...figures);
+    const [arm, ...others] = figures.map((each) => each.lastElementChild);
+    const dashed = (one) => ({ ...one, dash: [5, 4], width: 1.3 });
+    this.charts = {
+      joints: new Lines(
+        arm,
+        (c) => [...strokes(c, joints.length), ...strokes(c, joints.length).map(dashed)],
+        {
+          range: (_, low, high) => [Math.min(low ?? -20, -20) - 5, Math.max(high ?? 40, 40) + 5],
+          incrs: [20, 40, 80],
+          unit: "°",
+        },
+      ),
+    };
+    levels.forEach(({ name, size }, i) => {
+      this.widths[name] = size;
+      this.charts[name] =
+        size > MOST_LINES
+          ? new Heat(others[i], `Activity of the ${titled(name)} units over time`)
+          : new Lines(others[i], (c) => strokes(c, size), { range: [-0.05, 1.05], incrs: [0.5] });
+    });
+    this.clear();
   }
 
   clear() {
-    this.rows = { actual: [], commanded: [], io: [], cf: [], cs: [] };
-    this.times = { actual: [], commanded: [], io: [], cf: [], cs: [] };
+    this.rows = Object.fromEntries(Object.keys(this.widths ?? {}).map((name) => [name, []]));
+    this.times = Object.fromEntries(Object.keys(this.rows).map((name) => [name, []]));
     this.end = 0;
   }
 
@@ -106,7 +160,7 @@ export class Activity {
   take(frames) {
     if (frames.from === 0) this.clear();
     for (const name of Object.keys(this.rows)) {
-      const rows = frames[name] ?? [];
+      const rows = frames[name] ?? frames.activity[name] ?? [];
       rows.forEach((row, i) => {
         this.times[name].push(
           (frames.from + (i * frames.poses.length) / rows.length) / frames.rate_hz,
@@ -119,50 +173,38 @@ export class Activity {
   /** Show everything up to a time [s]. */
   show(end) {
     this.end = end;
-    const { actual, commanded } = this.rows;
-    const [seconds, sensed] = this.#until(actual, this.times.actual, 2, DEGREES);
-    const asked = this.#until(commanded, this.times.commanded, 2, DEGREES)[1];
-    this.joints.show([seconds, ...sensed, ...asked], end);
-    for (const [name, width] of [
-      ["io", 6],
-      ["cs", 4],
-    ]) {
-      const [times, columns] = this.#until(this.rows[name], this.times[name], width, 1);
-      this[name].show([times, ...columns], end);
+    for (const [name, chart] of Object.entries(this.charts)) {
+      if (name !== "joints") chart.show(this.#until(name, 1), end);
     }
-    this.#heat(end);
+    const sensed = this.#until("actual", DEGREES);
+    this.charts.joints?.show([...sensed, ...this.#until("commanded", DEGREES).slice(1)], end);
   }
 
-  #until(rows, times, width, factor) {
+  #until(name, factor) {
+    const [rows, times] = [this.rows[name], this.times[name]];
     const count = times.filter((t) => t <= this.end + 1e-9).length;
-    const columns = Array.from({ length: width }, (_, k) =>
+    const columns = Array.from({ length: this.widths[name] }, (_, k) =>
       rows.slice(0, count).map((row) => (k < row.length ? row[k] * factor : null)),
     );
-    return [times.slice(0, count), columns];
+    return [times.slice(0, count), ...columns];
   }
+}
 
-  #heat(end) {
-    const { context, width, height } = fitted(this.cf);
-    const c = colours();
-    context.fillStyle = c.band;
-    context.fillRect(0, 0, width, height);
-    const { cf: rows } = this.rows;
-    const { cf: times } = this.times;
-    if (rows.length < 2) return;
-    const from = Math.max(end - SHOWN_S, 0);
-    const wide = ((times[1] - times[0]) / SHOWN_S) * width;
-    const tall = height / rows[0].length;
-    context.fillStyle = c.blue;
-    rows.forEach((row, i) => {
-      if (times[i] > end || times[i] < from - 1) return;
-      const x = ((times[i] - from) / SHOWN_S) * width;
-      row.forEach((value, k) => {
-        context.globalAlpha = Math.min(Math.max(value, 0), 1);
-        context.fillRect(x, k * tall, wide + 0.5, tall);
-      });
-    });
-    context.globalAlpha = 1;
-  }
+const strokes = (c, count) =>
+  Array.from({ length: count }, (_, i) => {
+    const paints = [c.blue, c.orange, c.sky, c.amber, c.green, c.pink];
+    return { stroke: paints[i % paints.length] };
+  });
+
+const figure = (name, caption) =>
+  made("figure", "", [made("figcaption", "", caption), made("div")], {
+    "data-testid": `chart-${name}`,
+  });
+
+function role(index, count) {
+  if (index === 0) return "input and output";
+  if (index === 1) return "fast context";
+  return index === count - 1 ? "slow context" : "context";
 }
 
 /** The learning curve: the mean error [cm] after every lesson. */

@@ -1,9 +1,9 @@
 // The desk around the view: the one line, buttons and what they do, and passing messages.
 
-import { read } from "./arrows.js";
 import { made, part, say } from "./dom.js";
 import { guide } from "./guide.js";
 import { showNetwork } from "./network.js";
+import { read } from "./task.js";
 
 const TOAST_MS = 7000;
 /** What takes long enough for a bar, and can be stopped. */
@@ -38,7 +38,7 @@ export function furnish(send, touched, takeOver) {
 /** Offer the motions that can be shown by themselves. */
 export function listMotions(motions) {
   const groups = ["One stroke", "Two strokes", "Three strokes"].map((label, i) => {
-    const those = motions.filter((motion) => read(motion).arrows.length === i + 1);
+    const those = motions.filter((motion) => read(motion).signs.length === i + 1);
     return made(
       "optgroup",
       "",
@@ -81,7 +81,6 @@ export function tidy(now) {
   part("notebook-empty").hidden = session.notebook.length > 0;
   offerExport(session.notebook.length > 0);
   if (scene) showNetwork(part("network"), scene.levels, session.levels);
-  say(part("cs-note"), session.levels.length > 2 ? "slow context" : "slow context, not grown yet");
 }
 
 /** A link without an address can be neither pressed nor reached by keys. */

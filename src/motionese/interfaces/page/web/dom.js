@@ -17,6 +17,9 @@ export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/** Return a level's name as it is written, such as "IO" or "Cf". */
+export const titled = (name) => (name === "io" ? "IO" : name[0].toUpperCase() + name.slice(1));
+
 /** Return the colours of the style sheet, which follow the light or dark scheme. */
 export function colours() {
   const style = getComputedStyle(document.documentElement);

@@ -1,14 +1,7 @@
 // The one line that says what to do now.
 
-import { inWords, read } from "./arrows.js";
+import { primitivesOf, read } from "./task.js";
 
-const STROKES = {
-  "UR ↓": ["push the blue button", "straight down to the blue ring"],
-  "LR ↑": ["lift the hand from the blue button", "straight up"],
-  "UR ←": ["slide over to the left", "straight across to UL"],
-  "UL ↓": ["push the green button", "straight down to the green ring"],
-  "LL ↑": ["lift the hand from the green button", "straight up"],
-};
 const BUSY = {
   recognising: "It is thinking about what it saw …",
   performing: "Watch it try.",
@@ -23,20 +16,17 @@ const BUSY = {
 const WELL_CM = 2;
 
 const KEYS = {
-  choosing: "Arrow keys choose the corner to start from. Space begins.",
-  planning: "Arrow keys draw from corner to corner. Enter finishes, Escape gives up.",
+  choosing: "Arrow keys choose the place to start from. Space begins.",
+  planning: "Arrow keys draw from place to place. Enter finishes, Escape gives up.",
 };
 
 /** Return the invitation to show a motion. */
 function invitation(motion, first, short = false) {
-  const { start } = read(motion);
-  if (!(motion in STROKES)) {
-    return `${short ? "Next" : "Show it a sequence"}: press on ${start} and draw ${inWords(motion).split(": ")[1]}.`;
-  }
-  const [what, way] = STROKES[motion];
-  if (short) return `Next, press on ${start} and draw ${way}.`;
+  const strokes = primitivesOf(motion);
+  if (!strokes.length) return "Show it a motion.";
+  const way = strokes.map(({ words, end }) => `${words} to ${end}`).join(", then ");
   if (first) return `Press on the red ball and draw it ${way}.`;
-  return `Show it how to ${what}: press on ${start} and draw ${way}.`;
+  return `${short ? "Next" : "Show it more"}: press on ${read(motion).start} and draw ${way}.`;
 }
 
 /** Return what to do now, from the state of everything. */

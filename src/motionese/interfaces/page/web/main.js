@@ -1,6 +1,5 @@
 // The page: what arrives goes to the parts that show it, what a person does goes to the robot.
 
-import { read, visited } from "./arrows.js";
 import { Curve } from "./charts.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
 import { onScheme, part, say } from "./dom.js";
@@ -8,10 +7,11 @@ import { Ghost } from "./ghost.js";
 import { Live } from "./live.js";
 import { SlowMap } from "./map.js";
 import { showGrown, showNotebook } from "./notebook.js";
-import { pathThrough } from "./paths.js";
+import { pathAlong } from "./paths.js";
 import { Pace } from "./playing.js";
 import { Showing } from "./showing.js";
 import { Stage } from "./stage.js";
+import { primitivesOf, read, takeTask, task } from "./task.js";
 import { clearVerdict, showUnderstanding, showVerdict } from "./verdict.js";
 import { View } from "./view.js";
 
@@ -49,7 +49,7 @@ const curve = new Curve(part("chart-curve"));
 const map = new SlowMap(
   part("map"),
   part("map-primitive"),
-  (cs, primitive) => send({ type: "hover", cs, primitive }),
+  (slow, primitive) => send({ type: "hover", slow, primitive }),
   () => view.mark({ hovered: null }),
 );
 const showing = new Showing(view, {
@@ -73,9 +73,10 @@ const live = new Live((message) => {
 const heard = {
   scene(message) {
     now.scene = message;
-    stage.take(message.robot);
-    view.take(message.view, (width, height) => stage.seen(message.view.camera, width, height));
-    listMotions(message.motions);
+    takeTask(message.task, message.view.aspect);
+    stage.take(message);
+    view.take((width, height) => stage.seen(message.view.camera, width, height));
+    listMotions(message.task.motions);
   },
   session(message) {
     if (message.id !== now.session.id) beginAnew();
@@ -228,17 +229,18 @@ function judge() {
 /** Return the motion to be shown next: what was never shown, else what goes worst. */
 function nextMotion() {
   const strokes = now.session.phase;
-  const known = (now.scene?.motions ?? []).filter((m) => read(m).arrows.length === strokes);
+  const known = task.motions.filter((motion) => read(motion).signs.length === strokes);
   const errors = new Map(now.session.notebook.map((e) => [e.motion, e.errors.at(-1) ?? Infinity]));
   const fresh = known.find((motion) => !errors.has(motion));
-  return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "UR ↓";
+  return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "";
 }
 
 function invite() {
   const isFirst = now.session.id && now.session.notebook.length === 0;
   const wanted = canWatch() && now.scene && isFirst && !now.touched && !now.session.busy;
   if (!wanted || ghost.plays) return;
-  ghost.invite(pathThrough(visited(nextMotion()).map((corner) => now.scene.view.corners[corner])));
+  const ways = primitivesOf(nextMotion()).map(({ way }) => way);
+  if (ways.length) ghost.invite(pathAlong(ways));
 }
 
 /** Bring everything that depends on the whole state up to date. */
@@ -293,6 +295,6 @@ window.teach = {
     const box = part("surface").getBoundingClientRect();
     return [box.left + place[0] * box.width, box.top + place[1] * box.height];
   },
-  /** Where a corner lies in the view. */
-  corner: (name) => view.corners[name],
+  /** Where a place of the task lies in the view. */
+  place: (name) => task.places[name].at,
 };

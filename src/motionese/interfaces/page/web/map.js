@@ -1,13 +1,13 @@
 // The map of the slow initial states: which way the hand goes from every point of it.
 
-import { made, colours, fitted, onScheme } from "./dom.js";
+import { made, colours, fitted, onScheme, titled } from "./dom.js";
 
 const SEND_EVERY_MS = 120;
 const MARGIN = 26;
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class SlowMap {
-  /** `hovered(cs, primitive)` is called for a point that is pointed at, `left()` when none is. */
+  /** `hovered(slow, primitive)` is called for a point that is pointed at, `left()` when none is. */
   constructor(canvas, choice, hovered, left) {
     Object.assign(this, { canvas, choice, hovered, left, map: null, cell: null });
     choice.addEventListener("change", () => this.draw());
@@ -33,7 +33,7 @@ export class SlowMap {
     const names = Object.keys(map.primitives);
     const chosen = names.includes(this.choice.value) ? this.choice.value : names[0];
     this.choice.replaceChildren(
-      ...names.map((name) => made("option", "", `Cf of ${name}`, { value: name })),
+      ...names.map((name) => made("option", "", `State of ${name}`, { value: name })),
     );
     this.choice.value = chosen;
     this.choice.disabled = !names.length;
@@ -59,7 +59,7 @@ export class SlowMap {
       context.fillText("Not drawn yet", width / 2, width / 2);
       return;
     }
-    context.fillText("first unit of Cs₀", width / 2, width - 8);
+    context.fillText(`first unit of ${titled(this.map.level)}₀`, width / 2, width - 8);
     context.save();
     context.rotate(-Math.PI / 2);
     context.fillText("second unit", -width / 2, 14);
@@ -106,8 +106,8 @@ export class SlowMap {
   }
 
   #points(context, c) {
-    for (const { motions, cs } of together(this.map.points ?? [])) {
-      const [x, y] = this.#pixel(cs.map((value) => this.#index(value)));
+    for (const { motions, slow } of together(this.map.points ?? [])) {
+      const [x, y] = this.#pixel(slow.map((value) => this.#index(value)));
       const isRight = x > this.canvas.clientWidth / 2;
       const label = motions.length > 1 ? `${motions[0]} +${motions.length - 1}` : motions[0];
       Object.assign(context, { fillStyle: c.ink, strokeStyle: c.card, lineWidth: 3 });
@@ -170,9 +170,9 @@ export class SlowMap {
 /** Bring motions together whose points lie on each other, so that their names can be read. */
 function together(points) {
   const places = new Map();
-  for (const { motion, cs } of points) {
-    const key = cs.map(Math.round).join();
-    const place = places.get(key) ?? { motions: [], cs };
+  for (const { motion, slow } of points) {
+    const key = slow.map(Math.round).join();
+    const place = places.get(key) ?? { motions: [], slow };
     if (!place.motions.includes(motion)) place.motions.push(motion);
     places.set(key, place);
   }

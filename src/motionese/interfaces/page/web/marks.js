@@ -1,4 +1,6 @@
-// What is drawn into the eye view: lines, corners, the caregiver's hand, and a flat table.
+// What is drawn into the eye view: lines, places, the caregiver's hand, and a flat table.
+
+import { colourAt, task } from "./task.js";
 
 /** Draw a line through pixels; `rim` lifts it off the ground, `arrow` gives it a head. */
 export function line(context, pixels, { colour, width, rim, dash = [], arrow = false }) {
@@ -35,12 +37,11 @@ function head(context, pixels, colour) {
   context.fill();
 }
 
-const PRESSES = { LR: "button-right", LL: "button-left" };
-
-/** Draw a corner: a ring with its name, in the colour of the button that is pressed there. */
-export function cornerAt(context, view, corner) {
-  const [x, y] = view.pixel(view.corners[corner]);
-  const { ink, card, [PRESSES[corner]]: button } = view.colours;
+/** Draw a place: a ring with its name, in the colour of what comes about there. */
+export function placeAt(context, view, name) {
+  const { at } = task.places[name];
+  const [x, y] = view.pixel(at);
+  const { ink, card, [colourAt(name)]: button } = view.colours;
   for (const [colour, width] of button
     ? [
         [card, 8],
@@ -56,7 +57,7 @@ export function cornerAt(context, view, corner) {
     context.arc(x, y, 17, 0, 2 * Math.PI);
     context.stroke();
   }
-  const aside = corner.endsWith("R") ? 1 : -1;
+  const aside = at[0] > 0.5 ? 1 : -1;
   context.font = `600 13px ${getComputedStyle(document.body).fontFamily}`;
   context.textAlign = aside > 0 ? "left" : "right";
   context.textBaseline = "middle";
@@ -64,8 +65,8 @@ export function cornerAt(context, view, corner) {
   context.lineWidth = 4;
   context.strokeStyle = card;
   context.fillStyle = ink;
-  context.strokeText(corner, x + 27 * aside, y);
-  context.fillText(corner, x + 27 * aside, y);
+  context.strokeText(name, x + 27 * aside, y);
+  context.fillText(name, x + 27 * aside, y);
 }
 
 /** Draw the caregiver's hand below its red marker, which is at a pixel; `scale` 1 is 680 px wide. */
@@ -128,9 +129,10 @@ export function flatGround(context, view) {
   const c = view.colours;
   context.fillStyle = c.band;
   context.fillRect(0, 0, view.width, view.height);
-  for (const [name, place] of Object.entries(view.buttons ?? {})) {
-    const [x, y] = view.pixel(place);
-    context.fillStyle = /^(LL|left)/.test(name) ? c["button-left"] : c["button-right"];
+  for (const [name, { at }] of Object.entries(task.places)) {
+    if (!colourAt(name)) continue;
+    const [x, y] = view.pixel(at);
+    context.fillStyle = c[colourAt(name)];
     context.beginPath();
     context.ellipse(x, y, 0.075 * view.width, 0.05 * view.width, 0, 0, 2 * Math.PI);
     context.fill();

@@ -1,5 +1,7 @@
 // The network as levels, from fast to slow, with their sizes and time constants.
 
+import { titled } from "./dom.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 const [ACROSS, STEP, FIRST] = [264, 62, 28];
 const UNITS_IN_A_ROW = 20;
@@ -42,7 +44,11 @@ export function showNetwork(place, levels, open) {
       }),
     );
   }
-  levels.forEach((level, i) => svg.append(drawn(level, height(i), open.includes(level.name))));
+  levels.forEach((level, i) => {
+    const group = drawn(level, height(i), open.includes(level.name));
+    if (i > 1 && i === places - 1) group.classList.add("slow");
+    svg.append(group);
+  });
   place.replaceChildren(svg);
 }
 
@@ -73,8 +79,6 @@ function drawn(level, y, isOpen) {
   }
   return group;
 }
-
-const titled = (name) => (name === "io" ? "IO" : name[0].toUpperCase() + name.slice(1));
 
 function told(tau) {
   if (!Array.isArray(tau)) return String(tau);

@@ -1,6 +1,6 @@
 // The list of everything that was shown, with how well the robot did it.
 
-import { inWords, pictured } from "./arrows.js";
+import { inWords, pictured } from "./task.js";
 import { made } from "./dom.js";
 
 const SOURCES = { drawn: "drawn", webcam: "webcam", scripted: "by itself" };

@@ -70,9 +70,9 @@ export class Robot {
     });
   }
 
-  /** Light the caps that are pressed [mm]; return which are. */
-  light(depths) {
-    return ["right_button", "left_button"].map((name, i) => {
+  /** Light the caps, by the effects' names, that are pressed [mm]; return which are. */
+  light(names, depths) {
+    return names.map((name, i) => {
       const on = depths[i] > PRESSED_MM;
       const body = this.bodies.find((b) => b.name === name);
       body?.children.forEach((cap) =>

@@ -2,10 +2,11 @@
 
 import { composable } from "./compose.js";
 import { part, say } from "./dom.js";
-import { pathThrough, rowsUntil } from "./paths.js";
+import { pathAlong, rowsUntil, waysThrough } from "./paths.js";
 import { drawable } from "./pen.js";
 import { Pace } from "./playing.js";
 import { Stroke } from "./stroke.js";
+import { task } from "./task.js";
 import { Webcam } from "./webcam.js";
 
 export class Showing {
@@ -35,15 +36,16 @@ export class Showing {
       up: () => this.#end(),
     });
     composable(surface, {
-      choose: (corner) => {
+      choose: (place) => {
         to.touched();
-        view.mark({ hand: view.corners[corner], plan: null });
+        view.mark({ hand: task.places[place].at, plan: null });
       },
-      planned: (corners) => {
+      planned: (places) => {
         to.touched();
-        view.mark({ plan: corners, hand: view.corners[corners.at(-1)] });
+        const plan = places.map((place) => task.places[place].at);
+        view.mark({ plan, hand: plan.at(-1) });
       },
-      perform: (corners) => this.#perform(corners),
+      perform: (places) => this.#perform(places),
       gaveUp: () => view.mark({ plan: null, hand: null }),
       keyed: (state) => {
         this.keyed = state;
@@ -111,11 +113,9 @@ export class Showing {
   }
 
   /** Send a motion that was composed with the keys, in the time a hand would take. */
-  #perform(corners) {
-    const path = pathThrough(
-      corners.map((corner) => this.view.corners[corner]),
-      performance.now(),
-    );
+  #perform(places) {
+    const ways = waysThrough(places.map((place) => task.places[place].at));
+    const path = pathAlong(ways, performance.now());
     if (!this.#begin(path[0], "drawn")) return;
     let sent = 1;
     this.pace.start((elapsed) => {

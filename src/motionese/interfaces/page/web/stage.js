@@ -1,7 +1,7 @@
 // The robot on its stage: three dimensions, what goes on inside it, and the buttons it presses.
 
 import { Activity } from "./charts.js";
-import { onScheme, part } from "./dom.js";
+import { made, onScheme, part } from "./dom.js";
 import { Pace, Player } from "./playing.js";
 
 /** Pictures a second where the processor draws them, and where a graphics card does. */
@@ -11,27 +11,30 @@ export class Stage {
   /** `ready()` is called when the robot can be drawn, which takes longer than the page itself. */
   constructor(ready) {
     this.frames = 0;
-    this.activity = new Activity({
-      joints: part("chart-joints"),
-      io: part("chart-io"),
-      cf: part("chart-cf"),
-      cs: part("chart-cs"),
-    });
+    this.activity = new Activity(part("charts"));
+    this.lights = [];
     this.player = new Player(new Pace(SOFT_HZ), (...at) => this.#show(...at));
     this.#load(ready);
   }
 
-  /** Take the robot of a `scene`. */
-  take(robot) {
+  /** Take the robot, the network's levels and the task's effects of a `scene`. */
+  take({ robot, levels, task: { effects } }) {
     this.model = robot;
     this.robot?.take(robot);
+    this.activity.build(robot.joints, levels);
+    this.effects = effects.map(({ name }) => name);
+    this.lights = effects.map(({ name, title }, i) =>
+      made("li", `effect-${i}`, title, { "data-testid": `light-${name}` }),
+    );
+    part("lights").replaceChildren(...this.lights);
+    part("lights").hidden = !effects.length;
   }
 
   /** Take a chunk of a performance. */
   perform(frames) {
     this.frames += frames.poses.length;
     if (frames.from === 0) this.charted = -1;
-    this.depths = frames.from === 0 ? frames.buttons : [...this.depths, ...frames.buttons];
+    this.depths = frames.from === 0 ? frames.effects : [...this.depths, ...frames.effects];
     this.activity.take(frames);
     this.player.take(frames);
   }
@@ -78,8 +81,8 @@ export class Stage {
       rows[Math.min(Math.floor((row * rows.length) / poses.length), rows.length - 1)];
     if (this.robot) {
       this.robot.pose(poses[row]);
-      const lit = this.robot.light(at(this.depths) ?? [0, 0]);
-      ["light-right", "light-left"].forEach((id, i) => part(id).classList.toggle("on", lit[i]));
+      const lit = this.robot.light(this.effects, at(this.depths) ?? []);
+      this.lights.forEach((light, i) => light.classList.toggle("on", lit[i]));
       this.robot.draw();
     }
     // Charts cost as much as the robot: half as often, and at the end.

@@ -1,6 +1,6 @@
 // What the robot understands: large arrows, how sure it is, and how far its path is off.
 
-import { inWords, pictured, read } from "./arrows.js";
+import { inWords, pictured, read } from "./task.js";
 import { made, part, say } from "./dom.js";
 
 function show(motion, confidence, error) {

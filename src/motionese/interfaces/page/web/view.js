@@ -1,7 +1,8 @@
 // The robot's eye view: what it sees, what is drawn over it, and what it makes of that.
 
 import { colours, fitted } from "./dom.js";
-import { cornerAt, flatGround, hand, line } from "./marks.js";
+import { flatGround, hand, line, placeAt } from "./marks.js";
+import { task } from "./task.js";
 
 /** Width of what a person draws [px]: broad, so that what is recognised can be seen upon it. */
 const CRAYON = 11;
@@ -9,14 +10,12 @@ const CRAYON = 11;
 /** Three layers: the ground (drawn once), the ink (drawn on, never redrawn), and marks over them. */
 export class View {
   constructor({ ground, ink, surface }) {
-    Object.assign(this, { ground, ink, surface, marks: {}, corners: {} });
+    Object.assign(this, { ground, ink, surface, marks: {} });
     new ResizeObserver(() => this.refresh()).observe(surface);
   }
 
-  /** Take the view of a `scene`; `picture(width, height)` returns what the eye sees, or null. */
-  take(view, picture) {
-    this.corners = view.corners;
-    this.buttons = view.buttons;
+  /** Show another scene; `picture(width, height)` returns what the eye sees, or null. */
+  take(picture) {
     this.picture = picture;
     this.refresh();
   }
@@ -46,7 +45,7 @@ export class View {
     return [x * this.width, y * this.height];
   }
 
-  /** Show marks: recognised, next, drawn, done, hovered (paths), hand, prompt (places), plan (corners). */
+  /** Show marks: recognised, next, drawn, done, hovered (paths), hand, prompt and plan (places). */
   mark(marks) {
     Object.assign(this.marks, marks);
     this.pending ??= requestAnimationFrame(() => this.#marks());
@@ -75,7 +74,7 @@ export class View {
     const seen = this.picture?.(this.width, this.height);
     if (seen) context.drawImage(seen, 0, 0, this.width, this.height);
     else flatGround(context, this);
-    for (const corner of Object.keys(this.corners)) cornerAt(context, this, corner);
+    for (const name of Object.keys(task.places)) placeAt(context, this, name);
   }
 
   #marks() {
@@ -86,7 +85,7 @@ export class View {
     over.clearRect(0, 0, this.width, this.height);
     const path = (points) => (points || []).map((p) => this.pixel(p.slice(-2)));
     line(over, path(marks.drawn), { colour: c.crayon, width: CRAYON });
-    line(over, path(marks.plan?.map((corner) => this.corners[corner])), {
+    line(over, path(marks.plan), {
       colour: c.crayon,
       width: CRAYON,
     });
