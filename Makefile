@@ -36,14 +36,14 @@ benchmarks: $(TOOLS)
 
 # What the page of `motionese teach` takes from others, built anew (needs node; nothing else does).
 page-vendor:
-	@src/motionese/interfaces/teach/page/vendor/build.sh
+	@src/motionese/interfaces/page/web/vendor/build.sh
 
 $(READY): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "motionese needs Python 3.11 or newer; name one: make PYTHON=python3.12 ..."; exit 2; }
 	@echo "Setting up $(VENV) (once; about a minute) ..."
 	@$(PYTHON) -m venv $(VENV)
-	@$(PIP) -e ".[vision]"
+	@$(PIP) -e ".[experiment,vision]"
 	@touch $@
 
 $(TOOLS): $(READY)

@@ -27,7 +27,7 @@ from rich.console import Console
 from rich.table import Table
 
 import motionese as mo
-from motionese.interfaces.onnx_step import export_onnx
+from motionese.interfaces.onnx_export import export_onnx
 from motionese.runtime import ControlLoop, Part, Player, Stepper, load
 
 try:

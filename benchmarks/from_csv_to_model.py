@@ -88,7 +88,7 @@ def train_by_command(source: Path, out: Path) -> Time:
     """Run `motionese train` with nothing compiled; return how long it took [s]."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("XLA_", "JAX_"))}
     environment["XDG_CACHE_HOME"] = str(out.parent / "cache")
-    code = "from motionese.interfaces.command_line import main; main()"
+    code = "from motionese.interfaces.commands.command_line import main; main()"
     levels = ",".join(f"{s}:{t:g}" for s, t in zip(SIZES[1:], TAUS[1:], strict=True))
     options = ["--out", str(out), "--levels", levels, "--seed", str(SEED)]
     command = [sys.executable, "-c", code, "train", str(source), *options]

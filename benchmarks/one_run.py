@@ -18,27 +18,26 @@ os.environ["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_paralleli
 from rich.console import Console
 from rich.table import Table
 
-from motionese.experiment import Run, condition, go_through, read_settings
+from motionese.experiment import Run, condition_named, go_through, read_settings
 
 SETTINGS = read_settings()
+TD_MD = condition_named("TD/MD", SETTINGS.factors)
 
 
 def seconds(seed: int) -> float:
     """Do a whole run in a folder that is thrown away."""
     with tempfile.TemporaryDirectory() as folder:
         began = perf_counter()
-        go_through(Run(condition("TD/MD"), seed, Path(folder)), SETTINGS, lambda loop: None)
+        go_through(Run(TD_MD, seed, Path(folder)), SETTINGS, lambda loop: None)
         return perf_counter() - began
 
 
 def on_a_robot() -> float:
     """Return how long [s] the shown and the performed motions of a run last."""
-    first, second = SETTINGS.lessons("TD")
-    change = SETTINGS.phases.change_after
     rows = sum(
-        SETTINGS.caregiver.rows(motion) * count
-        for lesson, count in ((first, change), (second, SETTINGS.phases.loops - change))
-        for motion in lesson
+        stage.until.loops * stage.manner.rows(sequence)
+        for stage in SETTINGS.development(TD_MD)
+        for sequence in stage.lesson
     )
     return 2 * rows / SETTINGS.body.rate_hz
 

@@ -8,7 +8,7 @@ from typer.cli import get_docs_for_click
 from typer.main import get_command
 
 import motionese
-from motionese.interfaces.command_line import app as command_line
+from motionese.interfaces.commands.command_line import app as command_line
 
 project = "motionese"
 author = copyright = "The motionese authors"
@@ -35,11 +35,11 @@ python_maximum_signature_line_length = 88
 
 BESIDE_THE_CODE = {
     "../src/motionese/network/README.md": "network.md",
-    "../src/motionese/experiment/departures.md": "departures.md",
+    "../src/motionese/analysis/mochizuki2013/departures.md": "departures.md",
 }
 """Pages whose text stands beside the code, and the pages of this site that include it."""
 
-ROOMS = ("learning", "network", "channels", "interfaces.estimator")
+ROOMS = ("learning", "network", "channels", "interfaces.estimator", "interfaces.onnx_export")
 """Where the package's own public names are documented."""
 
 

@@ -1,20 +1,28 @@
 """A person at the page: drawings of motions, in the view and as messages."""
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 
-from motionese.body import CORNERS
-from motionese.caregiver import PUSHING_BUTTONS
+from motionese.body import open_body
+from motionese.experiment import read_settings
+from motionese.task import PUSHING_BUTTONS
 from motionese.teaching.view import View
 
 HZ = 60
-VIEW = View()
+
+
+@cache
+def view() -> View:
+    """The view of the robot that pushes buttons."""
+    return View(open_body(read_settings().body, PUSHING_BUTTONS), PUSHING_BUTTONS)
 
 
 def places(name: str) -> list[np.ndarray]:
-    """Where a motion's corners are in the view."""
-    return [VIEW.of_points(CORNERS[c]) for c in PUSHING_BUTTONS.motion(name).corners]
+    """Where the places of a sequence are in the view."""
+    task = PUSHING_BUTTONS
+    return [view().of_points(task.position(place)) for place in task.sequence(name).places]
 
 
 def points_of(name: str, seconds: float = 1.2, seed: int = 0) -> list[tuple[float, float, float]]:

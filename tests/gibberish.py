@@ -26,7 +26,7 @@ near = some.fixed_dictionaries(
         "points": some.lists(some.tuples(numbers, numbers, numbers), max_size=6),
         "motion": some.sampled_from(["UR ↓", "UR ↓↑←", "", "../..", "babbling"]) | some.text(),
         "entry": some.integers(-1, 9),
-        "cs": some.tuples(numbers, numbers),
+        "slow": some.tuples(numbers, numbers),
         "primitive": some.sampled_from(["UR ↓", "LL ↑", "no such"]),
         "with": some.sampled_from(["fresh", "/etc", ""]),
         "take": some.booleans(),
@@ -54,7 +54,7 @@ right = some.one_of(
     ),
     some.builds(lambda entry: {"type": "forget", "entry": entry}, some.integers(0, 40)),
     some.builds(
-        lambda a, b: {"type": "hover", "cs": [a, b], "primitive": "UR ↓"},
+        lambda a, b: {"type": "hover", "slow": [a, b], "primitive": "UR ↓"},
         some.floats(-100, 100),
         some.floats(-100, 100),
     ),

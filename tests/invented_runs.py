@@ -5,9 +5,24 @@ import json
 import numpy as np
 import pandas as pd
 
-from motionese.caregiver import PUSHING_BUTTONS
-from motionese.experiment.conditions import CONDITIONS
-from motionese.experiment.evaluation import NEW_MOTIONS
+from motionese.experiment import condition_named, read_settings
+from motionese.task import PUSHING_BUTTONS
+
+STUDY = read_settings()
+CONDITIONS = STUDY.conditions
+NEW_MOTIONS = PUSHING_BUTTONS.lesson("triples")
+
+
+def condition(name):
+    return condition_named(name, STUDY.factors)
+
+
+def write_settings(root, study=STUDY, **facts):
+    """Write the settings of a run folder."""
+    settings = study.model_dump(mode="json")
+    facts = {"format": "motionese-run", "version": 2, "settings": settings} | facts
+    (root / "settings.json").write_text(json.dumps(facts))
+
 
 LOOPS, CHANGE = 8, 4
 ERRORS = {"TD/MD": 1.0, "TD/MND": 2.0, "TND/MD": 6.0, "TND/MND": 1.5}
@@ -82,12 +97,13 @@ def inside_arrays(rng, steps=42):
         path = np.stack([0.5 + 0 * t, -0.3 + 0.2 * t, 1.05 - 0.2 * np.sin(3 * t) ** 2], axis=1)
         arrays[f"shown.{motion.name}"] = path
         arrays[f"performed.{motion.name}"] = path + 0.01 * rng.standard_normal((steps, 3))
-    depths = np.stack([np.where(abs(t - 0.3) < 0.05, 9.0, 0.0), 0 * t], axis=1)
     return arrays | {
         "activity": rng.random((steps, 48)).astype(np.float32),
         "commanded": np.zeros((steps, 2)),
         "sensed": np.stack([0.1 + 0.4 * np.sin(3 * t), -0.2 + 0 * t], axis=1),
-        "depths": depths,
+        "begins": np.array([0, 14, 28]),
+        "effect.right_button": np.where(abs(t - 0.3) < 0.05, 9.0, 0.0),
+        "effect.left_button": 0 * t,
         "poses": np.tile([0, 0.4, 0.1, -0.2, 0, 0, 1.3, 1.1, 0.95], (steps, 1)),
     }
 
@@ -96,6 +112,8 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
     """Write a run's folder; `end` is how it ended, "unfinished" or "diverged" included."""
     folder = root / condition.folder / f"seed-{seed}"
     folder.mkdir(parents=True)
+    if not (root / "settings.json").exists():
+        write_settings(root)
     rng = np.random.default_rng([seed, CONDITIONS.index(condition)])
     name = condition.name
     loops = 2 if end != "finished" else LOOPS
@@ -104,7 +122,7 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
     if end == "unfinished":
         return folder
     error = ERRORS[name] if error is None else error
-    opens = 1 if condition.structuring == "MND" else CHANGE + 1
+    opens = 1 if "MND" in condition.choices else CHANGE + 1
     tables = {
         "loops.csv": loops_table(name, seed, rng, error, loops),
         "development.csv": development_table(name, seed, opens, loops),
@@ -137,8 +155,8 @@ def without_map(folder):
     write_end(folder, {"rows": rows | {"slow_state_map.csv": 0}})
 
 
-def without_phase_2(folder):
-    """Leave a run as one of settings whose phase 1 is all."""
+def without_stage_2(folder):
+    """Leave a run as one of settings whose stage 1 is all."""
     loops = pd.read_csv(folder / "loops.csv")
     loops[loops["phase"] == 1].to_csv(folder / "loops.csv", index=False)
     development = pd.read_csv(folder / "development.csv")

@@ -6,9 +6,9 @@ from contextlib import contextmanager
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from motionese.interfaces.teach.house import House
-from motionese.interfaces.teach.safety import Admission
-from motionese.interfaces.teach.server import application
+from motionese.interfaces.page.admission import Admission
+from motionese.interfaces.page.application import application
+from motionese.interfaces.page.hub import Hub
 
 HERE, LIVE = "http://127.0.0.1:8000", "ws://127.0.0.1:8000/live"
 
@@ -60,10 +60,10 @@ class Nobody:
 def served(supervised, session, admission=None):
     """A server with the supervisor that `supervised` makes."""
     refused = []
-    house = House(supervised, refused.append)
-    app = application(house, admission or Admission("127.0.0.1"), session)
+    hub = Hub(supervised, refused.append)
+    app = application(hub, admission or Admission("127.0.0.1"), session)
     with TestClient(app, base_url=HERE) as client:
-        client.house, client.refused = house, refused
+        client.hub, client.refused = hub, refused
         yield client
 
 

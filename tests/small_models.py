@@ -1,11 +1,14 @@
 """A network of three levels over three channels in a file, for the runtime to read."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 
 from motionese.channels import Channel, Channels
 from motionese.network import MTRNN, Level, write_network
+from motionese.runtime import timing
 
 CHANNELS = Channels(
     [
@@ -15,6 +18,8 @@ CHANNELS = Channels(
     ]
 )
 SIZES = (3, 7, 2)
+INITIAL_IO = ("sensed", "zero")
+"""What the IO units of a network may begin at."""
 NAMES = ("reach", "wave")
 
 
@@ -33,7 +38,17 @@ def written(path, *, initial_io="sensed", facts=None):
     return network, states
 
 
-class Clock:
+def nothing_learned(fit):
+    """A fit as it was before any motion was learned."""
+    none = {
+        name: np.zeros((0, fit.network.io_size))
+        for name in ("teacher_forced_error", "closed_loop_error", "validation_error")
+    }
+    states = np.zeros((0, fit.network.size), np.float32)
+    return replace(fit, names=(), lengths=(), initial_states=states, validation_names=(), **none)
+
+
+class Clock(timing.Clock):
     """Time that passes when somebody sleeps, or when a test says so."""
 
     def __init__(self):

@@ -11,14 +11,12 @@ import pytest
 import safetensors
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
 
-from motionese.experiment.conditions import condition
-from motionese.experiment.reading import read_settings
-from motionese.experiment.run import Run, go_through
+from motionese.experiment import Run, condition_named, go_through, read_settings
 from motionese.one_core import one_core
 
 SMALL = (
-    "phases.loops=3",
-    "phases.change_after=1",
+    "stages.0.until.loops=1",
+    "stages.1.until.loops=2",
     "babbling.epochs=5",
     "training.epochs=5",
     "recognition.iterations=5",
@@ -47,7 +45,9 @@ def small_settings():
 @pytest.fixture(scope="session")
 def undisturbed(tmp_path_factory, small_settings, compiled):
     """All that a run of TD/MD with seed 5 leaves on disk."""
-    run = Run(condition("TD/MD"), 5, tmp_path_factory.mktemp("undisturbed"))
+    run = Run(
+        condition_named("TD/MD", small_settings.factors), 5, tmp_path_factory.mktemp("undisturbed")
+    )
     told = []
     go_through(run, small_settings, told.append)
     assert told == [1, 2, 3]

@@ -13,28 +13,56 @@ ROOT = Path(__file__).parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("src/**/*.md")])
 
 TUTORIAL = ROOT / "docs" / "your_own_robot.md"
+PYTHON = r"```python\n((?s:.*?))```"
+COMMAND = r"^ {4}(?:\.venv/bin/)?motionese (.*)$"
+LINK = r"\]\(([^)#]+)[^)]*\)"
+IMAGE = r'src="([^"]+)"'
+TARGET = r"(?:^ {4}|`)make ([a-z-]+)"
+SETTING = r"--set ([\w.]+=[^\s`]+)"
+SHOWN = {
+    PYTHON: ("README.md", "docs/first_steps.md", "docs/your_own_robot.md", "docs/extending.md"),
+    COMMAND: ("README.md", "docs/first_steps.md", "docs/your_own_robot.md", "docs/teach.md"),
+    LINK: ("README.md", "docs/index.md", "docs/gallery.md", "docs/api/index.md"),
+    TARGET: ("README.md", "CONTRIBUTING.md", "docs/first_steps.md"),
+    SETTING: ("README.md", "docs/first_steps.md"),
+}
+"""What pages show, and pages that surely show it: a test of pages that show nothing cannot fail."""
 
 
 def called(page):
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if page != TUTORIAL], ids=called)
+def shown(page, pattern):
+    return re.findall(pattern, page.read_text(), re.MULTILINE)
+
+
+def pages_that_show(pattern, but=()):
+    return pytest.mark.parametrize(
+        "page", [page for page in PAGES if page not in but and shown(page, pattern)], ids=called
+    )
+
+
+@pytest.mark.parametrize("pattern", SHOWN)
+def test_pages_show_what_they_are_tested_for(pattern):
+    assert set(SHOWN[pattern]) <= {called(page) for page in PAGES if shown(page, pattern)}
+
+
+@pages_that_show(PYTHON, but=[TUTORIAL])
 def test_snippets_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {}
-    for snippet in re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL):
+    for snippet in shown(page, PYTHON):
         exec(compile(snippet, called(page), "exec"), names)
 
 
 @pytest.mark.slow
 def test_the_tutorial_s_snippets_and_commands_run_in_order(tmp_path, monkeypatch):
-    from motionese.interfaces.command_line import app, spread
+    from motionese.interfaces.commands.command_line import app, spread
 
     monkeypatch.chdir(tmp_path)
     names = {}
-    steps = r"```python\n(.*?)```|^ {4}motionese ([^\n]*)$"
-    for snippet, command in re.findall(steps, TUTORIAL.read_text(), re.DOTALL | re.MULTILINE):
+    for snippet, command in shown(TUTORIAL, f"{PYTHON}|{COMMAND}"):
         if command:
             told = CliRunner().invoke(app, spread(shlex.split(command, comments=True)))
             assert told.exit_code == 0, f"{command}\n{told.output}"
@@ -42,19 +70,18 @@ def test_the_tutorial_s_snippets_and_commands_run_in_order(tmp_path, monkeypatch
             exec(compile(snippet, called(TUTORIAL), "exec"), names)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=called)
+@pages_that_show(f"{LINK}|{IMAGE}")
 def test_links_lead_somewhere(page):
-    text = page.read_text()
-    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text) + re.findall(r'src="([^"]+)"', text):
+    for target in shown(page, LINK) + shown(page, IMAGE):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), target
 
 
-@pytest.mark.parametrize("page", PAGES, ids=called)
+@pages_that_show(COMMAND)
 def test_commands_and_their_options_exist(page):
-    from motionese.interfaces.command_line import app
+    from motionese.interfaces.commands.command_line import app
 
-    for line in re.findall(r"^ {4}(?:\.venv/bin/)?motionese (.*)$", page.read_text(), re.MULTILINE):
+    for line in shown(page, COMMAND):
         command, *arguments = shlex.split(line, comments=True)
         told = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "200"})
         assert told.exit_code == 0, line
@@ -62,19 +89,18 @@ def test_commands_and_their_options_exist(page):
             assert option.partition("=")[0] in told.output, line
 
 
-@pytest.mark.parametrize("page", PAGES, ids=called)
+@pages_that_show(TARGET)
 def test_make_targets_exist(page):
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
-    assert set(re.findall(r"`?\bmake ([a-z-]+)`?$", page.read_text(), re.MULTILINE)) <= targets
+    assert set(shown(page, TARGET)) <= targets
 
 
-def test_settings_named_in_the_docs_exist():
-    from motionese.experiment.reading import read_settings
+@pages_that_show(SETTING)
+def test_settings_named_in_the_docs_exist(page):
+    from motionese.experiment import read_settings
 
-    for page in PAGES:
-        for override in re.findall(r"--set (\S+=[^\s`]+)", page.read_text()):
-            if "…" not in override:
-                read_settings(overrides=[override])
+    for override in shown(page, SETTING):
+        read_settings(overrides=[override])
 
 
 def test_every_room_has_a_page_of_its_public_names():
@@ -98,7 +124,7 @@ def test_the_site_is_built_without_warnings(site):
     from typer.main import get_command
 
     import motionese
-    from motionese.interfaces.command_line import app
+    from motionese.interfaces.commands.command_line import app
 
     library = (site / "api" / "index.html").read_text()
     assert all(f"mo.{name}<" in library for name in motionese.__all__)

@@ -11,7 +11,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from motionese.interfaces.command_line import main
+from motionese.interfaces.commands.command_line import main
 
 CHANNELS = ("shoulder [rad]", "elbow [rad]", "x [m]", "y [m]")
 NAMES = ("lift", "reach", "wave", "push", "pull")

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from motionese.channels import Channel, Channels
+    from motionese.interfaces.onnx_export import export_onnx
     from motionese.learning import (
         Fit,
         Found,
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
         generate_sequence,
         load,
         placed,
+        read_for,
         recognise,
         save,
+        split,
         train,
     )
     from motionese.network import MTRNN, Level, grow
@@ -33,19 +36,26 @@ __all__ = [
     "Progress",
     "Recognition",
     "Training",
+    "export_onnx",
     "generate",
     "generate_sequence",
     "grow",
     "load",
     "placed",
+    "read_for",
     "recognise",
     "save",
+    "split",
     "train",
 ]
 
 __version__ = "0.1.0"
 
-_ROOMS = {"channels": ("Channel", "Channels"), "network": ("MTRNN", "Level", "grow")}
+_ROOMS = {
+    "channels": ("Channel", "Channels"),
+    "interfaces.onnx_export": ("export_onnx",),
+    "network": ("MTRNN", "Level", "grow"),
+}
 
 _WITH_AN_EXTRA = {"MTRNNImitator": "interfaces.estimator"}
 """Public names that need an extra's package, and are not in `__all__`: `import *` asks for all."""

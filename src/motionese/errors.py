@@ -56,6 +56,13 @@ class TooFewSeedsError(MotioneseError):
     """A statistical test was asked for with fewer seeds than it needs."""
 
 
+NO_MOTION = "the model has learned no motion yet; train it on motions first"
+CHECKPOINT_BEFORE = (
+    "a checkpoint of an experiment made by motionese 0.1 before checkpoints were models: "
+    "run the experiment again"
+)
+
+
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Return the sentence for a name that does not exist, with the nearest one that does."""
     names = [str(k) for k in known]

@@ -1,11 +1,10 @@
 import json
 
 import pytest
-from invented_runs import write_run
+from invented_runs import CONDITIONS, write_run, write_settings
 
 from motionese.errors import RenderingError
-from motionese.experiment.conditions import CONDITIONS
-from motionese.experiment.reading import read_settings
+from motionese.experiment import read_settings
 
 
 @pytest.fixture
@@ -20,10 +19,7 @@ def eight_seeds(tmp_path_factory):
     for condition in CONDITIONS:
         for seed in range(8):
             write_run(root, condition, seed)
-    settings = read_settings().model_dump(mode="json")
-    settings["network"]["gain"] = 3.25
-    facts = {"format": "motionese-run", "version": 1, "preset": "<mine>", "settings": settings}
-    (root / "settings.json").write_text(json.dumps(facts))
+    write_settings(root, read_settings(overrides=["network.gain=3.25"]), preset="<mine>")
     (root / "environment.json").write_text(json.dumps({"python": "3.11", "jax": "0.9"}))
     return root
 
@@ -32,7 +28,7 @@ def eight_seeds(tmp_path_factory):
 def unrendered(monkeypatch):
     """A machine without GL."""
 
-    def refuse(poses, **_):
+    def refuse(model, poses, **_):
         raise RenderingError("pictures cannot be rendered on this machine: no GL")
 
     monkeypatch.setattr("motionese.analysis.film.pictures", refuse)

@@ -5,14 +5,14 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
-from invented_runs import without_map, write_end
+from invented_runs import CONDITIONS, STUDY, condition, without_map, write_end, write_settings
 
-from motionese.analysis.collected import LEADING_COLUMNS, collect
+from motionese.analysis.collected import collect, leading_columns
 from motionese.analysis.facts import flat, read_facts
 from motionese.errors import RunFolderError, StorageError
-from motionese.experiment.conditions import CONDITIONS, condition
 
 TD_MD, TND_MND = condition("TD/MD"), condition("TND/MND")
+LEADING_COLUMNS = leading_columns(STUDY)
 
 
 def test_rows_are_in_the_order_of_conditions_and_seeds(tmp_path, make_run):
@@ -22,9 +22,10 @@ def test_rows_are_in_the_order_of_conditions_and_seeds(tmp_path, make_run):
     found = collect(tmp_path)
     order = found.loops[["condition", "seed"]].drop_duplicates().to_numpy().tolist()
     assert order == [[c, s] for c in ("TD/MD", "TND/MND") for s in (9, 10, 100)]
-    assert found.conditions == (TD_MD, TND_MND)
+    assert list(found.looks) == ["TD/MD", "TND/MND"]
     for name, columns in LEADING_COLUMNS.items():
-        assert list(getattr(found, name).columns)[: len(columns)] == columns
+        table = found.novel[name] if name in found.novel else getattr(found, name)
+        assert list(table.columns)[: len(columns)] == columns
 
 
 def test_numbers_survive_to_the_last_bit(tmp_path, make_run):
@@ -45,7 +46,7 @@ def test_how_runs_ended(tmp_path, make_run):
         "", "loop 2: diverged at epoch 3", "stopped after loop 2"
     ]  # fmt: skip
     assert set(found.loops["seed"]) == {0, 1}
-    assert set(found.triples["seed"]) == {0}
+    assert set(found.new_sequences["seed"]) == {0}
 
 
 def test_a_run_without_a_slow_level_has_an_empty_map(tmp_path, make_run):
@@ -67,6 +68,7 @@ def test_no_folder(tmp_path):
 
 
 def test_no_ended_run(tmp_path, make_run):
+    write_settings(tmp_path)
     with pytest.raises(RunFolderError, match="no ended run in it; runs lie in folders such as"):
         collect(tmp_path)
     make_run(tmp_path, CONDITIONS[0], 0, end="unfinished")
@@ -210,58 +212,60 @@ def test_damaged_performances(tmp_path, make_run, damage):
     path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(RunFolderError, match=r"inside\.npz is damaged .*remove ended\.json"):
-        collect(tmp_path).inside(TD_MD, 0)
+        collect(tmp_path).inside("TD/MD", 0)
 
 
 def test_performances_that_lack_an_array(tmp_path, make_run):
     path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
     np.savez(path, activity=np.zeros((2, 2)))
-    with pytest.raises(RunFolderError, match=r"no commanded, sensed, depths, poses"):
-        collect(tmp_path).inside(TD_MD, 0)
+    with pytest.raises(RunFolderError, match=r"no commanded, sensed, begins, poses"):
+        collect(tmp_path).inside("TD/MD", 0)
 
 
 def test_inside(tmp_path, make_run):
     folder = make_run(tmp_path, TD_MD, 0)
     found = collect(tmp_path)
-    arrays = found.inside(TD_MD, 0)
+    arrays = found.inside("TD/MD", 0)
     assert arrays is not None and arrays["activity"].shape == (42, 48)
     (folder / "inside.npz").unlink()
-    assert found.inside(TD_MD, 0) is None
+    assert found.inside("TD/MD", 0) is None
 
 
 def test_settings_of_the_folder(eight_seeds):
     facts = read_facts(eight_seeds)
-    assert facts.told and facts.settings.network.gain == 3.25
+    assert facts.study.network.gain == 3.25
     assert facts.record["preset"] == "<mine>"
     assert facts.environment["jax"] == "0.9"
 
 
-def test_a_folder_that_tells_nothing(tmp_path):
-    facts = read_facts(tmp_path)
-    assert not facts.told and facts.environment == {}
-    assert facts.settings.network.gain == 4.0
+def test_a_folder_that_tells_no_settings_is_none(tmp_path):
+    with pytest.raises(RunFolderError, match=r"is no run folder: it has no settings\.json"):
+        read_facts(tmp_path)
+    write_settings(tmp_path)
+    assert read_facts(tmp_path).environment == {}
 
 
 @pytest.mark.parametrize("text", ["{", "[1]", "7", "[[1, 2]]"])
 def test_broken_facts(tmp_path, text):
+    write_settings(tmp_path)
     (tmp_path / "environment.json").write_text(text)
     with pytest.raises(RunFolderError, match=r"environment\.json: not a JSON object"):
         read_facts(tmp_path)
 
 
-OURS = {"format": "motionese-run", "version": 1}
+OURS = {"format": "motionese-run", "version": 2}
 
 
 @pytest.mark.parametrize(
     ("record", "told"),
     [
-        (OURS | {"settings": {"phases": 3}}, r"does not fit this version .* phases = 3"),
+        (OURS | {"settings": {"phases": 3}}, r"does not fit this version .* phases is of the form"),
         (OURS | {"settings": {"curriculum": {}}}, r"does not fit this version .* is missing"),
         (OURS | {"settings": [1]}, "holds no settings"),
         (OURS, "holds no settings"),
         (OURS | {"version": 9}, "run folder of format 9"),
         ({"a": 1}, "was not written by motionese"),
-        ([1], "not a JSON object"),
+        ([1], "was not written by motionese"),
     ],
 )
 def test_settings_of_another_schema_are_told_before_runs_are_looked_for(tmp_path, record, told):

@@ -5,10 +5,10 @@ from importlib import resources
 
 import pytest
 
-from motionese.analysis.departures import departures
-from motionese.experiment.reading import read_settings
+from motionese.analysis.mochizuki2013 import departures
+from motionese.experiment import read_settings
 
-TEXT = resources.files("motionese.experiment").joinpath("departures.md").read_text()
+TEXT = resources.files("motionese.analysis.mochizuki2013").joinpath("departures.md").read_text()
 NAMED = re.findall(r"`([a-z_]+\.[a-z_.]+)(?: = ([^`]+))?`", TEXT)
 
 

@@ -4,14 +4,15 @@ import re
 
 import numpy as np
 import pytest
-from invented_runs import inside_arrays
+from invented_runs import STUDY, inside_arrays
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from motionese.analysis.film import film, moments
-from motionese.analysis.inside import levels_of, principal_plane
-from motionese.analysis.style import LOOKS, SETTINGS, finished
-from motionese.experiment.conditions import CONDITIONS
+from motionese.analysis.inside import principal_plane
+from motionese.analysis.style import looks_of
+from motionese.body import load_model
+from motionese.figure_style import SETTINGS, finished
 
 
 def drawing(name="one"):
@@ -50,9 +51,18 @@ def test_figures_of_one_page_do_not_share_names():
 
 
 def test_every_condition_has_a_look_of_its_own():
-    assert set(LOOKS) == {c.name for c in CONDITIONS}
+    looks = looks_of(STUDY.factors)
+    assert list(looks) == [c.name for c in STUDY.conditions]
     for part in ("colour", "marker"):
-        assert len({getattr(look, part) for look in LOOKS.values()}) == len(LOOKS)
+        assert len({getattr(look, part) for look in looks.values()}) == len(looks)
+    assert [look.line for look in looks.values()] == ["-", "--", "-", "--"]
+
+
+def test_other_designs_have_looks_by_the_same_rule():
+    three = looks_of({"pace": ("slow", "quick", "none")})
+    assert len({look.colour for look in three.values()}) == 3
+    many = looks_of({"a": tuple("bcdef"), "g": ("h", "i")})
+    assert len({(look.colour, look.line, look.marker) for look in many.values()}) >= 8
 
 
 def test_principal_plane_of_a_line():
@@ -69,27 +79,24 @@ def test_principal_plane_of_a_single_unit_and_of_stillness():
     assert principal_plane(np.ones((4, 3)))[1] == pytest.approx([0, 0])
 
 
-def test_levels_that_are_open():
-    sizes = {"io": 6, "cf": 40, "cs": 2}
-    assert levels_of(sizes, 48) == {"io": slice(0, 6), "cf": slice(6, 46), "cs": slice(46, 48)}
-    assert list(levels_of(sizes, 46)) == ["io", "cf"]
-
-
 def test_moments_go_from_the_start_over_the_press_to_the_release():
-    depths = np.zeros((42, 2))
-    depths[13, 1] = 8.0
-    rows = moments(depths)
+    depths = {"right": np.zeros(42), "left": np.zeros(42)}
+    depths["left"][13] = 8.0
+    rows = moments(depths, 42)
     assert len(rows) == 8 and rows[0] == 0 and 13 in rows and rows[-1] == 26
     assert (np.diff(rows) > 0).all()
 
 
 def test_moments_without_a_press():
-    rows = moments(np.zeros((42, 2)))
+    for effects in ({"right": np.zeros(42)}, {}):
+        rows = moments(effects, 42)
     assert rows[0] == 0 and rows[-1] == 41 and len(rows) == 8
 
 
 def test_a_film_without_gl_is_drawn_and_says_so(unrendered):
-    figure, note = film(inside_arrays(np.random.default_rng(0)), 10.0)
+    figure, note = film(
+        inside_arrays(np.random.default_rng(0)), load_model(STUDY.body, STUDY.task.task()), 10.0
+    )
     assert len(figure.axes) == 8
     assert note.startswith("Drawn from the side") and "no GL" in note
     titles = [axes.get_title() for axes in figure.axes]

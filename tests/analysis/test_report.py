@@ -1,20 +1,28 @@
 """The whole report on invented runs: complete, self-contained, the same every time."""
 
-import json
 import re
 import shutil
 from html.parser import HTMLParser
 
 import pandas as pd
 import pytest
-from invented_runs import CHANGE, without_map, without_phase_2
+from invented_runs import STUDY, condition, without_map, without_stage_2, write_settings
 
 from motionese.analysis import write_report
 from motionese.errors import RenderingError, RunFolderError
-from motionese.experiment.conditions import condition
+from motionese.experiment import Study
 
 TD_MD, TND_MD = condition("TD/MD"), condition("TND/MD")
-TABLES = ["loops", "development", "triples", "slow_state_map", "map_numbers", "claims", "runs"]
+TABLES = [
+    "loops",
+    "development",
+    "triples",
+    "slow_state_map",
+    "map_numbers",
+    "claims",
+    "effects",
+    "runs",
+]
 VOID = {"meta", "link", "br", "img", "hr"}
 
 
@@ -56,7 +64,7 @@ class Page(HTMLParser):
 def no_gl():
     with pytest.MonkeyPatch.context() as patch:
 
-        def refuse(poses, **_):
+        def refuse(model, poses, **_):
             raise RenderingError("no GL here")
 
         patch.setattr("motionese.analysis.film.pictures", refuse)
@@ -81,7 +89,7 @@ def test_report_and_tables_are_there(whole):
         assert len(pd.read_csv(folder / f"{name}.csv"))
     figures = {path.stem for path in (folder / "figures").glob("*.svg")}
     assert figures == {path.stem for path in (folder / "figures").glob("*.png")}
-    assert figures >= {"learning_curves", "new_motions", "slow_state_map_1", "inside", "film"}
+    assert figures >= {"learning_curves", "new_sequences", "slow_state_map_1", "inside", "film"}
     assert not list(folder.rglob("*.part"))
 
 
@@ -143,7 +151,6 @@ def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
     assert report.runs == 4 and report.too_few == ""
     assert "2 of the runs did not finish" in page.text
     assert "loop 2: diverged at epoch 3" in page.text and "stopped after loop 2" in page.text
-    assert "these are the default’s" in page.text
     assert "undecided with 0 seeds" in page.text and "TND/MND (1" not in page.text
 
 
@@ -167,7 +174,7 @@ def test_nothing_but_a_diverged_run(tmp_path, make_run):
     report = write_report(tmp_path)
     page = Page(report.path.read_text())
     assert report.runs == 1 and report.too_few
-    assert "No run was evaluated on new motions" in page.text
+    assert "No run was evaluated on new sequences" in page.text
     assert "No run that ended has a slow level" in page.text
     assert "Nothing was kept of a performance" in page.text
 
@@ -179,21 +186,17 @@ def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
     assert "no slow level, no map" in page.text
 
 
-def test_phase_1_is_all(tmp_path, make_run, unrendered, eight_seeds):
-    facts = json.loads((eight_seeds / "settings.json").read_text())
-    facts["settings"]["phases"] = {"loops": CHANGE, "change_after": CHANGE}
-    (tmp_path / "settings.json").write_text(json.dumps(facts))
+def test_one_stage_is_all(tmp_path, make_run, unrendered):
+    table = STUDY.model_dump(mode="json")
+    write_settings(tmp_path, Study.model_validate(table | {"stages": table["stages"][:1]}))
     for seed in range(2):
-        without_phase_2(make_run(tmp_path, TD_MD, seed))
+        without_stage_2(make_run(tmp_path, TD_MD, seed))
     report = write_report(tmp_path)
     assert report.too_few == ""
-    claims = pd.read_csv(tmp_path / "claims.csv")["claim"]
-    assert claims.str.contains("phase 1").any() and not claims.str.contains("phase 2").any()
+    assert not (tmp_path / "claims.csv").exists(), "the paper's claims are about two stages"
     text = report.path.read_text()
-    row = re.search(
-        r"<tr><th scope=\"row\">TD/MD</th><td>2</td><td>([^<]*)</td><td>(.*?)</td>", text
-    )
-    assert row is not None and row[1] != "–" and row[2] == "–"
+    assert "end of stage 1" in text and "end of stage 2" not in text
+    assert "The paper’s claims" not in text and "What was learned of pushing two buttons?" in text
 
 
 def test_verdicts_on_several_parts_are_explained(whole):
@@ -219,5 +222,8 @@ def test_a_folder_that_cannot_be_written_to(tmp_path, make_run, monkeypatch):
 
 
 def test_no_run(tmp_path):
+    with pytest.raises(RunFolderError, match=r"it has no settings\.json"):
+        write_report(tmp_path)
+    write_settings(tmp_path)
     with pytest.raises(RunFolderError, match="no ended run"):
         write_report(tmp_path)

@@ -7,21 +7,26 @@ import sys
 import numpy as np
 import pytest
 
-from motionese.body import CORNERS, Actroid, BodySettings, marker_at, pictures, projected
+from motionese.body import pictures
+from motionese.body.actroid import Actroid, ActroidSettings
+from motionese.body.actroid.reach import marker_at, projected
 from motionese.body.eye import ProjectedEye
+from motionese.errors import RenderingError
+from motionese.task import PUSHING_BUTTONS
+
+CORNERS = {name: PUSHING_BUTTONS.position(name) for name in PUSHING_BUTTONS.places}
 
 
 @pytest.fixture(scope="module")
 def rendering_body(gl):
     pytest.importorskip("cv2")
-    return Actroid(BodySettings(vision="rendered"))
+    return Actroid(ActroidSettings(vision="rendered"), PUSHING_BUTTONS)
 
 
 def off(body, hand):
     """Return the seen marker minus its exact projection [px]."""
-    simulation = body._simulation
-    exact = ProjectedEye(simulation.model, 0.0).see(
-        simulation.data, hand, np.zeros(2), np.random.default_rng(0)
+    exact = ProjectedEye(body.model, 0.0).see(
+        body._simulation.data, hand, np.zeros(2), np.random.default_rng(0)
     )
     return body.sense()[4:] - exact
 
@@ -59,15 +64,6 @@ def test_of_two_markers_the_one_last_seen_is_followed(rendering_body, rng):
     assert np.abs(off(rendering_body, "own")).max() < 1
 
 
-def test_nothing_red_in_view_is_seen_as_last(rendering_body, rng):
-    rendering_body.watch(CORNERS["UR"], rng)
-    seen = rendering_body.sense()[4:]
-    rendering_body._caregiver_goal = rendering_body._caregiver = np.array([-2.0, 0.0, 1.0])
-    rendering_body._simulation.data.mocap_pos[0] = [-2.0, 0.0, 1.0]
-    rendering_body.step()
-    np.testing.assert_array_equal(rendering_body.sense()[4:], seen)
-
-
 def test_rendered_trials_are_repeated_to_the_bit(rendering_body):
     def trial():
         rendering_body.reset(np.radians([8.0, -12.6]), np.random.default_rng(1))
@@ -83,25 +79,17 @@ def test_rendered_trials_are_repeated_to_the_bit(rendering_body):
     np.testing.assert_array_equal(trial(), first)
 
 
-def test_film_shows_the_moments_from_both_cameras(gl, body, rng):
-    poses = []
-    for corner in ("UR", "LL"):
-        body.reset(body.command_reaching(CORNERS[corner]), rng)
-        poses.append(body.pose())
-    outside = pictures(np.array(poses))
-    by_eye = pictures(np.array(poses), camera="eye")
-    assert outside.shape == by_eye.shape == (2, 240, 320, 3) and outside.dtype == np.uint8
-    for film in (outside, by_eye):
-        assert (film[0] != film[1]).any()
-        red = (film[..., 0] > 200) & (film[..., 1:] < 60).all(axis=-1)
-        assert (red.sum(axis=(1, 2)) > 20).all()
-    rows, columns = np.nonzero(red[0])
+def test_the_eye_draws_the_seen_hand_in_its_middle(gl, body, rng):
+    body.reset(body.command_reaching(CORNERS["UR"]), rng)
+    (picture,) = pictures(body.model, body.pose()[None], camera="eye")
+    red = (picture[..., 0] > 200) & (picture[..., 1:] < 60).all(axis=-1)
+    rows, columns = np.nonzero(red)
     np.testing.assert_allclose([columns.mean(), rows.mean()], [159.5, 119.5], atol=1)
 
 
 def test_film_of_no_moments_is_empty(gl, body):
     none = np.empty((0, len(body.pose())))
-    assert pictures(none, size=(64, 48)).shape == (0, 48, 64, 3)
+    assert pictures(body.model, none, size=(64, 48)).shape == (0, 48, 64, 3)
 
 
 WITHOUT_GL = """
@@ -116,12 +104,14 @@ ctypes.util = __import__("ctypes.util").util
 ctypes.util.find_library = lambda name: None
 from motionese.errors import RenderingError
 try:
-    import motionese.body as mb
-    body = mb.Actroid()
+    from motionese.body import open_body, pictures
+    from motionese.body.actroid import ActroidSettings
+    from motionese.task import PUSHING_BUTTONS
+    body = open_body(ActroidSettings(), PUSHING_BUTTONS)
     body.step()
     print("projected view works")
-    for picture in (lambda: mb.pictures(body.pose()[None]),
-                    lambda: mb.Actroid(mb.BodySettings(vision="rendered"))):
+    for picture in (lambda: pictures(body.model, body.pose()[None]),
+                    lambda: open_body(ActroidSettings(vision="rendered"), PUSHING_BUTTONS)):
         try:
             picture()
         except RenderingError as refusal:
@@ -167,7 +157,5 @@ def test_missing_gl_that_was_asked_for_is_an_error_of_ours():
 
 def test_without_opencv_the_rendered_view_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "cv2", None)
-    from motionese.errors import RenderingError
-
     with pytest.raises(RenderingError, match=r"OpenCV: pip install 'motionese\[vision\]'"):
-        Actroid(BodySettings(vision="rendered"))
+        Actroid(ActroidSettings(vision="rendered"), PUSHING_BUTTONS)

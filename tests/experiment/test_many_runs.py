@@ -10,7 +10,7 @@ from distributed import Future
 from distributed.scheduler import KilledWorker
 from small_runs import left_on_disk
 
-from motionese.experiment.conditions import CONDITIONS, condition
+from motionese.experiment import condition_named
 from motionese.experiment.many_runs import _failure, go_through_all, longest_first
 from motionese.experiment.run import Run
 
@@ -43,8 +43,8 @@ def workers_of_this_process():
 def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
     tmp_path, small_settings, undisturbed
 ):
-    good = Run(condition("TD/MD"), 5, tmp_path / "good")
-    bad = Run(condition("TD/MD"), 6, tmp_path / "bad")
+    good = Run(condition_named("TD/MD", small_settings.factors), 5, tmp_path / "good")
+    bad = Run(condition_named("TD/MD", small_settings.factors), 6, tmp_path / "bad")
     bad.folder.mkdir()
     (bad.folder / "loop-01.safetensors").write_bytes(b"cut short")
     heard = Heard()
@@ -70,7 +70,7 @@ def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, small_setting
                 os.kill(worker.pid, signal.SIGKILL)
 
     heard = Heard(kill_in_loop_2)
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    run = Run(condition_named("TD/MD", small_settings.factors), 5, tmp_path)
     assert heard.go_through_all([run], small_settings, 1) == []
     assert len(killed) == 1
     assert [loop for _, loop in heard.loops].count(0) == 1
@@ -78,7 +78,11 @@ def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, small_setting
 
 
 def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_settings):
-    runs = [Run(c, seed, tmp_path / c.folder / str(seed)) for c in CONDITIONS for seed in (0, 1, 2)]
+    runs = [
+        Run(c, seed, tmp_path / c.folder / str(seed))
+        for c in small_settings.conditions
+        for seed in (0, 1, 2)
+    ]
     begun, ended = runs[0], runs[-1]
     for run in (begun, ended):
         run.folder.mkdir(parents=True)
@@ -89,7 +93,7 @@ def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_
     assert ended not in ordered
     assert ordered[-1] == begun
     assert [run.seed for run in ordered[:3]] == [0, 0, 0]
-    assert [run.condition.teaching for run in ordered[:3]] == ["TND", "TND", "TD"]
+    assert [run.condition.choices[0] for run in ordered[:3]] == ["TND", "TND", "TD"]
 
 
 def raising(error):

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 from small_runs import SMALL, left_on_disk
 
-from motionese.caregiver import PUSHING_BUTTONS, RecordedCaregiver, ScriptedCaregiver
+from motionese.body import open_body
+from motionese.caregiver import ScriptedCaregiver
 from motionese.errors import StorageError
-from motionese.experiment.conditions import condition
-from motionese.experiment.reading import read_settings
-from motionese.experiment.run import Run, go_through
+from motionese.experiment import Run, condition_named, go_through, read_settings
+from motionese.task import PUSHING_BUTTONS
+
+TD_MD = condition_named("TD/MD", read_settings().factors)
 
 
 class StoppedError(Exception):
@@ -42,7 +44,7 @@ def test_it_leaves_a_table_of_everything(undisturbed):
 
 
 def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_settings, undisturbed):
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    run = Run(TD_MD, 5, tmp_path)
     assert (run.loops_done(), run.ended()) == (0, None)
     for loop in (1, 2, 3):
         stopped_after(run, small_settings, loop)
@@ -52,14 +54,14 @@ def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_set
 
 
 def test_another_seed_ends_with_other_bits(tmp_path, small_settings, undisturbed):
-    go_through(Run(condition("TD/MD"), 6, tmp_path), small_settings, lambda loop: None)
+    go_through(Run(TD_MD, 6, tmp_path), small_settings, lambda loop: None)
     other = left_on_disk(tmp_path)
     assert other.keys() == undisturbed.keys()
     assert other["loop-01.safetensors"] != undisturbed["loop-01.safetensors"]
 
 
 def test_with_a_cut_checkpoint_it_waits_for_its_removal(tmp_path, small_settings, undisturbed):
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    run = Run(TD_MD, 5, tmp_path)
     stopped_after(run, small_settings, 2)
     checkpoint = tmp_path / "loop-02.safetensors"
     checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
@@ -71,7 +73,7 @@ def test_with_a_cut_checkpoint_it_waits_for_its_removal(tmp_path, small_settings
 
 
 def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    run = Run(TD_MD, 5, tmp_path)
     (tmp_path / "ended.json").write_text('{"status": "fin')
     with pytest.raises(StorageError, match=r"ended\.json: cannot be read; remove it"):
         go_through(run, small_settings, lambda loop: None)
@@ -88,17 +90,20 @@ def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
 def test_a_checkpoint_of_another_run_or_other_settings_is_refused(
     tmp_path, small_settings, compiled, name, seed, overrides, told
 ):
-    stopped_after(Run(condition("TD/MD"), 5, tmp_path), small_settings, 1)
+    stopped_after(Run(TD_MD, 5, tmp_path), small_settings, 1)
     settings = read_settings(overrides=[*SMALL, *overrides], quick=True)
     with pytest.raises(StorageError) as error:
-        go_through(Run(condition(name), seed, tmp_path), settings, print)
+        go_through(
+            Run(condition_named(name, small_settings.factors), seed, tmp_path), settings, print
+        )
     assert told in str(error.value)
 
 
 def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_settings, compiled):
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    run = Run(TD_MD, 5, tmp_path)
     stopped_after(run, small_settings, 1)
-    (tmp_path / "loop-01.safetensors").rename(tmp_path / "loop-02.safetensors")
+    path = tmp_path / "loop-01.safetensors"
+    path.with_name("loop-02.safetensors").write_bytes(path.read_bytes())
     with pytest.raises(StorageError, match="a checkpoint of loop 1 of TD/MD"):
         go_through(run, small_settings, print)
 
@@ -107,7 +112,7 @@ def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_setti
 def test_an_ending_that_is_none_is_refused(tmp_path, content):
     (tmp_path / "ended.json").write_text(content)
     with pytest.raises(StorageError, match="remove it, and the run is evaluated again"):
-        Run(condition("TD/MD"), 5, tmp_path).ended()
+        Run(TD_MD, 5, tmp_path).ended()
 
 
 @pytest.mark.slow
@@ -115,12 +120,13 @@ def test_recorded_demonstrations_stand_in_for_the_scripted_caregiver(
     tmp_path, small_settings, compiled
 ):
     manner = small_settings.caregiver.model_copy(update={"variability_mm": 0.0})
-    scripted, rng = ScriptedCaregiver(manner), np.random.default_rng(0)
+    body = open_body(small_settings.body, PUSHING_BUTTONS)
+    scripted, rng = ScriptedCaregiver(PUSHING_BUTTONS, manner, body), np.random.default_rng(0)
     motions = [m for length in (1, 2, 3) for m in PUSHING_BUTTONS.sequences(length)]
-    recorded = RecordedCaregiver({m.name: [scripted.demonstrate(m, rng)] for m in motions})
-    run = Run(condition("TD/MD"), 5, tmp_path)
+    recorded = {m.name: [scripted.demonstrate(m, rng)] for m in motions}
+    run = Run(TD_MD, 5, tmp_path)
     ended = go_through(run, small_settings, lambda loop: None, recorded)
     assert ended["status"] == "finished"
     with np.load(tmp_path / "inside.npz") as kept:
         shown = kept["shown.UR ↓↑←"]
-    np.testing.assert_allclose(shown, recorded.recordings["UR ↓↑←"][0], atol=1e-9)
+    np.testing.assert_allclose(shown, recorded["UR ↓↑←"][0].path, atol=1e-9)

@@ -9,15 +9,13 @@ from pathlib import Path
 import pytest
 
 from motionese.errors import RunFolderError
-from motionese.experiment import run_folder
-from motionese.experiment.conditions import condition
-from motionese.experiment.reading import read_settings
+from motionese.experiment import condition_named, read_settings, run_folder
 from motionese.experiment.run_folder import open_run_folder, run_settings
 
 HOLDING = """
 import sys, time
 from pathlib import Path
-from motionese.experiment.reading import read_settings
+from motionese.experiment import read_settings
 from motionese.experiment.run_folder import open_run_folder
 with open_run_folder(Path(sys.argv[1]), read_settings(), "default"):
     print("open", flush=True)
@@ -48,7 +46,7 @@ def test_a_new_folder_tells_settings_and_environment(tmp_path, settings):
     path = tmp_path / "runs" / "first"
     opened(path, settings)
     facts = json.loads((path / "settings.json").read_text())
-    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 1, "default")
+    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 2, "default")
     assert facts["settings"] == settings.model_dump(mode="json") == run_settings(path)
     made_with = json.loads((path / "environment.json").read_text())
     assert made_with["python"] == sys.version.split()[0]
@@ -57,7 +55,7 @@ def test_a_new_folder_tells_settings_and_environment(tmp_path, settings):
 
 
 def test_a_run_has_a_folder_of_its_own(tmp_path, settings):
-    run = opened(tmp_path, settings).run(condition("TND/MD"), 7)
+    run = opened(tmp_path, settings).run(condition_named("TND/MD", settings.factors), 7)
     assert run.folder == tmp_path / "TND-MD" / "seed-7"
     assert run.name == "TND/MD seed 7"
 
@@ -95,9 +93,9 @@ def test_a_folder_that_is_not_ours_is_left_alone(tmp_path, settings):
         ("{}", "not written by motionese"),
         ("[]", "not written by motionese"),
         ('{"format": "motionese-run"', "cannot be read"),
-        ('{"format": "motionese-run", "version": 2, "settings": {}}', "format 2"),
-        ('{"format": "motionese-run", "version": 1}', "holds no settings"),
-        ('{"format": "motionese-run", "version": 1, "settings": 5}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 1, "settings": {}}', "format 1"),
+        ('{"format": "motionese-run", "version": 2}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 2, "settings": 5}', "holds no settings"),
     ],
 )
 def test_settings_that_are_not_ours_are_refused(tmp_path, settings, content, told):

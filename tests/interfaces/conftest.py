@@ -10,7 +10,7 @@ import pytest
 from small_runs import compiled, small_settings, undisturbed
 from typed import SMALL, typed, write_csv
 
-from motionese.interfaces.command_line import main
+from motionese.interfaces.commands.command_line import main
 
 __all__ = ["compiled", "small_settings", "undisturbed"]
 COMMAND = str(Path(sys.executable).with_name("motionese"))

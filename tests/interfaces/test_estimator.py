@@ -12,8 +12,8 @@ from sklearn.utils.estimator_checks import estimator_checks_generator
 
 import motionese
 from motionese.errors import ChannelError, MissingPackageError, SettingError
+from motionese.interfaces.commands.train import read_levels
 from motionese.interfaces.estimator import MTRNNImitator
-from motionese.interfaces.level_text import read_levels
 from motionese.learning import Recognition, generate
 from motionese.network import Level
 

@@ -26,6 +26,18 @@ def test_a_fit_generates_its_motions(fit, motions):
         assert (np.sqrt(((path - values) ** 2).mean(0)) < (0.4, 0.3, 0.6)).all()
 
 
+def test_a_channel_that_is_not_sensed_at_first_is_predicted(fit, motions):
+    state, values = fit.initial_states[0], motions.values[0][0] + 0.2
+    own = generate(fit.network, state, 20)
+    given, partly = np.array([values[0], np.nan, np.nan]), own[0].copy()
+    partly[0] = values[0]
+
+    path = generate(fit.network, state, 20, first=given)
+
+    np.testing.assert_allclose(path, generate(fit.network, state, 20, first=partly), atol=1e-5)
+    assert np.abs(path - own)[1:].max() > 1e-3
+
+
 def test_activity_holds_the_path_in_the_unit_interval(fit, motions):
     outputs = activity(fit.network, fit.initial_states[0], 20)
 

@@ -3,9 +3,11 @@
 import equinox as eqx
 import numpy as np
 import pytest
+from small_models import nothing_learned
 
 from motionese import generate, load, save
-from motionese.errors import StorageError
+from motionese.errors import SettingError, StorageError
+from motionese.learning import read_fit, recognise, write_fit
 from motionese.network import read_network, write_network
 
 PARTS = (
@@ -71,4 +73,42 @@ def test_states_and_status_of_no_fit_are_refused(path):
 
     write_network(path, network, arrays, facts | {"status": "stoped"})
     with pytest.raises(StorageError, match=r"unknown status 'stoped'; did you mean 'stopped'\?"):
+        load(path)
+
+
+def test_further_arrays_and_facts_go_with_a_fit_and_are_in_nobody_s_way(path, fit):
+    arrays = {"losses": np.arange(3.0), "values.0": np.ones((2, 3), np.float32)}
+    facts = {"names": ["other"], "loop": 3, "rows": [{"error": 0.1}]}
+    plain = path.read_bytes()
+
+    write_fit(path, fit, arrays, facts)
+    read, got_arrays, got_facts = read_fit(path)
+
+    assert got_facts == facts
+    assert set(got_arrays) == set(arrays)
+    for name, value in arrays.items():
+        np.testing.assert_array_equal(got_arrays[name], value)
+        assert got_arrays[name].dtype == value.dtype
+    np.testing.assert_array_equal(read.losses, fit.losses)
+    save(path, load(path))
+    assert path.read_bytes() == plain
+
+
+def test_a_robot_that_has_learned_nothing_yet_is_written_and_read(path, fit, motions):
+    write_fit(path, nothing_learned(fit), {}, {"loop": 0})
+    read, _, facts = read_fit(path)
+
+    assert (read.names, read.lengths, facts) == ((), (), {"loop": 0})
+    assert read.initial_states.shape == (0, fit.network.size)
+    assert bool(eqx.tree_equal(read.network, fit.network))
+    with pytest.raises(SettingError, match="the model has learned no motion yet"):
+        read.index("a")
+    found, alone = (recognise(m, motions[0]) for m in (read, read.network))
+    np.testing.assert_array_equal(found.initial_state, alone.initial_state)
+
+
+def test_a_checkpoint_of_an_experiment_before_is_refused_by_name(path, fit):
+    write_network(path, fit.network, {"values.0": np.ones((4, 3))}, {"experiences": [], "loop": 1})
+
+    with pytest.raises(StorageError, match="a checkpoint of an experiment made by"):
         load(path)

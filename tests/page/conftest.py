@@ -5,14 +5,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from drawn import places
 from filelock import FileLock
 from page.filming import film
-from page.person import Person, corners
+from page.person import Person
 from page.serving import CHROMIUM, FLAGS, Served, served, train_robot
 from playwright.sync_api import Browser, BrowserContext, sync_playwright
-
-from motionese.body import CORNERS
-from motionese.teaching.view import View
 
 FILMED = "UR ↓"
 
@@ -55,9 +53,8 @@ def newborn(chromium, tmp_path_factory) -> Iterator[Served]:
 @pytest.fixture(scope="module")
 def browser(chromium, tmp_path_factory) -> Iterator[Browser]:
     """A browser whose camera sees something red; not longer than a module, as it holds a loop."""
-    view = View()
-    places = [tuple(view.of_points(CORNERS[corner])) for corner in corners(FILMED)]
-    camera = film(tmp_path_factory.mktemp("film") / "red.y4m", places)
+    filmed = [tuple(place) for place in places(FILMED)]
+    camera = film(tmp_path_factory.mktemp("film") / "red.y4m", filmed)
     with sync_playwright() as playwright:
         flags = [*FLAGS, f"--use-file-for-fake-video-capture={camera}"]
         browser = playwright.chromium.launch(executable_path=chromium, args=flags)

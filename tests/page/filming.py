@@ -1,4 +1,4 @@
-"""A film for the browser's fake camera: something red moves from corner to corner, on grey."""
+"""A film for the browser's fake camera: something red moves from place to place, on grey."""
 
 from itertools import pairwise
 from pathlib import Path

@@ -10,12 +10,13 @@ import cv2
 import numpy as np
 from playwright.sync_api import Page, WebSocket
 
+from motionese.task import PUSHING_BUTTONS
+
 POINTER_HZ = 70
 STROKE_S, REST_S = 0.8, 0.1
 TREMOR_PX = 1.5
 PATIENCE_S = 60.0
 NAMED = {"button", "link", "combobox", "application", "image", "img", "progressbar", "meter"}
-ENDS = {"↓": {"UR": "LR", "UL": "LL"}, "↑": {"LR": "UR", "LL": "UL"}, "←": {"UR": "UL", "LR": "LL"}}
 
 
 class Person:
@@ -58,9 +59,9 @@ class Person:
     def guide(self) -> str:
         return self.page.inner_text("#guide")
 
-    def at(self, corner: str) -> tuple[float, float]:
-        """Where a corner lies in the window [px]."""
-        x, y = self.page.evaluate(f"window.teach.pixel(window.teach.corner('{corner}'))")
+    def at(self, place: str) -> tuple[float, float]:
+        """Where a place of the task lies in the window [px]."""
+        x, y = self.page.evaluate(f"window.teach.pixel(window.teach.place('{place}'))")
         return x, y
 
     def draw(self, motion: str, stroke_s: float = STROKE_S) -> tuple[int, float]:
@@ -71,7 +72,8 @@ class Person:
 
     def draws(self, motion: str, stroke_s: float = STROKE_S) -> int:
         """Draw a motion with a minimum-jerk hand that trembles a little, and keep the pen down."""
-        places = [np.array(self.at(corner)) for corner in corners(motion)]
+        passed = PUSHING_BUTTONS.sequence(motion).places
+        places = [np.array(self.at(place)) for place in passed]
         self.page.mouse.move(*places[0])
         self.page.mouse.down()
         moves, began = 0, time.monotonic()
@@ -122,6 +124,7 @@ class Person:
 
     def lets_it_learn(self) -> dict[str, Any]:
         self.presses("learn")
+        self.until(lambda state: state["busy"])
         return self.until(lambda state: state["step"] == "learned" and not state["busy"])
 
     def reads(self, test_id: str) -> str:
@@ -140,15 +143,6 @@ class Person:
     def points_sent(self) -> int:
         """How many points of drawings have gone to the robot."""
         return sum(len(said["points"]) for said in self.sent if said["type"] == "pen")
-
-
-def corners(motion: str) -> list[str]:
-    """The corners that a motion such as 'UR ←↓' visits."""
-    start, arrows = motion.split()
-    visited = [start]
-    for arrow in arrows:
-        visited.append(ENDS[arrow][visited[-1]])
-    return visited
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:

@@ -30,13 +30,14 @@ import os, sys
 from pathlib import Path
 from motionese.one_core import one_core
 os.environ.update(one_core())
-from motionese.experiment import condition, go_through, read_settings
+from motionese.experiment import condition_named, go_through, read_settings
 from motionese.experiment.run_folder import open_run_folder
-short = ["phases.loops=16", "phases.change_after=8"]
+short = ["stages.0.until.loops=8", "stages.1.until.loops=8"]
 short += ["evaluation.recognition.iterations=5", "evaluation.map_points=7"]
 settings = read_settings("default", short)
 with open_run_folder(Path(sys.argv[1]), settings, "default") as folder:
-    go_through(folder.run(condition("TD/MD"), 7), settings, print)
+    condition = condition_named("TD/MD", settings.factors)
+    go_through(folder.run(condition, 7), settings, print)
 """
 
 

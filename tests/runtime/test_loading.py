@@ -13,12 +13,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_models import CHANNELS, written
 
-from motionese import Motions, Training, load, save, train
+from motionese import Motions, Training, load, train
 from motionese.errors import StorageError
+from motionese.learning import write_fit
 from motionese.network import MTRNN, Level, storage, write_network
 from motionese.runtime import load as load_here
 from motionese.runtime import loading
-from motionese.runtime.safetensors_file import parse
+from motionese.runtime.loading import parse
 
 ALONE = """
 import sys
@@ -38,7 +39,7 @@ from motionese.runtime import ControlLoop, load
 
 sent = []
 loop = ControlLoop(load(sys.argv[1]), lambda: {"lift": 0.5}, sent.append, watchdog_s=5.0)
-print(loop.run("reach").ended, len(sent))
+print(loop.run("reach").ending, len(sent))
 """
 
 
@@ -85,7 +86,7 @@ def test_a_trained_fit_is_read(tmp_path):
         motions,
         settings=Training(epochs=1),
     )
-    save(tmp_path / "m", fit)
+    write_fit(tmp_path / "m", fit, {"initial_states": np.ones(2)}, {"names": []})
 
     model = load_here(tmp_path / "m")
 
@@ -175,6 +176,8 @@ def test_tensors_that_no_model_can_have_are_refused(saved, tmp_path, tensors, ma
         ({"levels": [{"size": 12}]}, r"its levels have \[12\] units"),
         ({"levels": [{"size": 0}, {"size": 12}]}, r"its levels have \[0, 12\] units"),
         ({"facts": {}}, "a network without a fit"),
+        ({"facts": {"names": []}}, "the model has learned no motion yet"),
+        ({"facts": {"experiences": []}}, r"a checkpoint of an experiment made by motionese 0\.1"),
         ({"facts": {"names": ["reach", "wave"], "rate_hz": -1}}, "finite and > 0 Hz, got -1"),
         ({"facts": {"names": ["reach", "wave"], "lengths": [1]}}, "is incomplete"),
         ({"initial_io": "guessed"}, "description of the network is incomplete"),

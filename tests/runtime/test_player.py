@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from small_models import CHANNELS, written
+from small_models import CHANNELS, INITIAL_IO, written
 
 from motionese import generate
 from motionese.errors import ControlError, SettingError
@@ -106,6 +106,7 @@ def test_a_blend_goes_from_one_path_to_the_other(model):
         np.testing.assert_allclose(player.step(), expected, rtol=1e-5, atol=1e-5)
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 @pytest.mark.parametrize("blend", [0, 1, 2, 15])
 def test_a_sequence_is_the_library_s(model, saved, blend):
     _, network, states = saved
@@ -160,6 +161,7 @@ def test_without_a_blend_the_next_motion_sets_out_from_the_same_place(model):
     np.testing.assert_allclose(player.step(), Player(model, model.begin("wave", first)).step())
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 def test_another_duration_is_the_library_s(model, saved):
     _, network, states = saved
     slower = model.with_duration(1.5)

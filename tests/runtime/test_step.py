@@ -5,7 +5,7 @@ import pytest
 from by_hand import network as by_hand
 from hypothesis import given
 from hypothesis import strategies as st
-from small_models import SIZES
+from small_models import INITIAL_IO, SIZES
 
 from motionese import generate
 from motionese.runtime import Player, Stepper
@@ -42,6 +42,7 @@ def test_steps_are_those_of_the_equations(model, seed):
     np.testing.assert_allclose(path, by_hand_path(model, u, sensed, share), atol=2e-6)
 
 
+@pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)
 def test_closed_loop_is_what_the_library_generates(model, saved):
     _, network, states = saved
     for name, u in zip(("reach", "wave"), states, strict=True):

@@ -1,13 +1,11 @@
 """A robot that has learned next to nothing, quickly made, and a session with it."""
 
 import pytest
-from drawn import VIEW, points_of
+from drawn import points_of, view
 from small_runs import compiled, small_settings
 
-from motionese.experiment import Scene
-from motionese.teaching.beginning import begun_with
-from motionese.teaching.drawing import Drawing, demonstrated
-from motionese.teaching.notebook import Notebook
+from motionese.imitation import Scene, newborn
+from motionese.teaching.drawing import Drawing, at_tempo
 from motionese.teaching.session import Teaching
 
 __all__ = ["compiled", "small_settings"]
@@ -20,22 +18,22 @@ def scene(small_settings, compiled):
 
 @pytest.fixture(scope="session")
 def fresh(scene):
-    return begun_with("fresh", scene)
+    return newborn(scene, 2)
 
 
 @pytest.fixture
 def teaching(scene, fresh):
-    return Teaching(scene, fresh, Notebook())
+    return Teaching(scene, fresh)
 
 
 @pytest.fixture
 def draw(scene):
-    """Draw a motion; returns the demonstration."""
+    """Draw a sequence; returns the hand's path at the robot's tempo."""
 
     def drawn(name: str, **how):
         drawing = Drawing()
         drawing.add(points_of(name, **how))
-        positions, _ = VIEW.positions(drawing.sampled(scene.body.rate_hz))
-        return demonstrated(positions, scene.settings.caregiver)
+        positions, _ = view().positions(drawing.sampled(scene.body.rate_hz))
+        return at_tempo(positions, scene.task, scene.settings.caregiver)
 
     return drawn

@@ -6,52 +6,34 @@ from drawn import points_of
 from hypothesis import given
 from hypothesis import strategies as some
 
-from motionese.body import CORNERS
-from motionese.teaching.drawing import (
-    LONGEST_S,
-    MOST_POINTS,
-    Drawing,
-    DrawingError,
-    demonstrated,
-    lasting,
-    moving,
-)
+from motionese.caregiver import lasting
+from motionese.task import PUSHING_BUTTONS
+from motionese.teaching.drawing import LONGEST_S, MOST_POINTS, Drawing, DrawingError, at_tempo
+
+UR, LR, LL = (PUSHING_BUTTONS.position(name) for name in ("UR", "LR", "LL"))
 
 
 @pytest.mark.parametrize("seconds", [0.5, 1.4, 4.0])
 @pytest.mark.parametrize(("name", "strokes"), [("UR ↓", 1), ("UR ←↓", 2), ("LL ↑↓↑", 3)])
 def test_slow_and_fast_hands_show_at_the_same_tempo(draw, scene, seconds, name, strokes):
-    demonstration = draw(name, seconds=seconds)
-    rows = strokes * sum(
-        getattr(scene.settings.caregiver, steps) for steps in ("stroke_steps", "rest_steps")
-    )
-    assert len(demonstration.path) == pytest.approx(rows, rel=0.1)
-    assert len(demonstration.drawn) == pytest.approx(10 * seconds * strokes, rel=0.45)
+    rows = strokes * scene.settings.caregiver.primitive_rows
+    assert len(draw(name, seconds=seconds)) == pytest.approx(rows, rel=0.1)
 
 
 def test_a_demonstration_begins_and_ends_where_the_pen_did(draw):
-    path = draw("UR ←↓").path
-    assert np.linalg.norm(path[0] - CORNERS["UR"]) < 0.01
-    assert np.linalg.norm(path[-1] - CORNERS["LL"]) < 0.01
-
-
-def test_stillness_is_cut_to_what_the_caregiver_rests():
-    there, here = np.array([0.0, 0.0, 0.1]), np.zeros(3)
-    way = lasting(np.stack([here, there]), 5)
-    path = np.concatenate([[here] * 9, way, [there] * 9, way[::-1], [here] * 9])
-    cut = moving(path, rest_steps=2)
-    assert len(cut) == 1 + 4 + 2 + 4, "one row at the ends, two in the middle"
-    np.testing.assert_array_equal(cut[[0, -1]], [here, here])
+    path = draw("UR ←↓")
+    assert np.linalg.norm(path[0] - UR) < 0.01
+    assert np.linalg.norm(path[-1] - LL) < 0.01
 
 
 def test_slips_and_endless_scribbles_are_refused_in_words(scene):
     manner = scene.settings.caregiver
-    still = np.zeros((20, 3)) + CORNERS["UR"]
+    still = np.zeros((20, 3)) + UR
     with pytest.raises(DrawingError, match="very short"):
-        demonstrated(still, manner)
-    scribble = np.concatenate([np.stack([CORNERS["UR"], CORNERS["LR"]])] * 4)
+        at_tempo(still, scene.task, manner)
+    scribble = np.concatenate([np.stack([UR, LR])] * 4)
     with pytest.raises(DrawingError, match="longer than 6 strokes"):
-        demonstrated(lasting(scribble, 100), manner)
+        at_tempo(lasting(scribble, 100), scene.task, manner)
 
 
 def test_no_more_points_than_allowed_are_taken():

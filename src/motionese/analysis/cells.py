@@ -1,4 +1,4 @@
-"""Numbers as the page writes them, and tables of such cells."""
+"""Numbers and names as the page writes them, and tables of such cells."""
 
 import math
 from collections.abc import Sequence
@@ -31,3 +31,8 @@ def with_interval(found: Estimate, digits: int = 2) -> str:
     if not math.isfinite(found.low):
         return value
     return f"{value} [{number(found.low, digits)}, {number(found.high, digits)}]"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as a list in words."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,6 +1,8 @@
 """What a run folder holds: the tables of its runs put together, and how every run ended."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -8,28 +10,35 @@ import numpy as np
 import pandas as pd
 from numpy import ndarray
 
+from motionese.analysis.directions import true_strokes
 from motionese.analysis.facts import Facts, read_facts
 from motionese.analysis.run_files import read_end, read_inside, read_table
+from motionese.analysis.style import Look, looks_of
+from motionese.body import SimulatedRobot, open_body
 from motionese.errors import RunFolderError
-from motionese.experiment.conditions import CONDITIONS, Condition
-from motionese.experiment.run import Run
+from motionese.experiment import Run, Study, condition_named
+from motionese.task import Task
 
-MEASURED = "imitation_error_cm recognition_residual_cm model_error_cm"
-PRESSED = "buttons_due buttons_pressed"
-LEADING_COLUMNS = {
-    name: columns.split()
-    for name, columns in {
-        "loops": f"condition seed loop phase motion {MEASURED} reproduction_error_cm {PRESSED} "
-        "status seconds",
-        "development": "condition seed loop levels",
-        "triples": f"condition seed motion trained {MEASURED} {PRESSED} status",
-        "slow_state_map": "condition seed primitive cs_1 cs_2 direction_1_rad extent_1_rad "
-        "direction_2_rad extent_2_rad",
-    }.items()
-}
-"""Columns that every table has, in this order; further ones follow as the runs wrote them."""
-EVALUATED = ("triples", "slow_state_map")
-"""Tables of what is done after the last loop."""
+MAP = "slow_state_map"
+MEASURED = ["imitation_error_cm", "recognition_residual_cm", "model_error_cm"]
+
+
+def leading_columns(study: Study) -> dict[str, list[str]]:
+    """Return the columns that every table has, in this order; further ones follow as written."""
+    task = study.task.task()
+    of = dict.fromkeys(c for outcome in task.outcomes for c in (outcome.of, outcome.column) if c)
+    who, top = ["condition", "seed"], list(study.network.levels)[-1]
+    new = [*who, "motion", "trained", *MEASURED, *of, "status"]
+    ways = [f"{what}_{segment}_rad" for segment in (1, 2) for what in ("direction", "extent")]
+    return {
+        "loops": [
+            *who, "loop", "phase", "motion", *MEASURED, "reproduction_error_cm", *of, "status",
+            "seconds",
+        ],
+        "development": [*who, "loop", "levels"],
+        **dict.fromkeys(task.novel, new),
+        MAP: [*who, "primitive", f"{top}_1", f"{top}_2", *ways],
+    }  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -44,7 +53,7 @@ class Collected:
         runs: A row per run: condition, seed, loops, seconds, status, reason.
         loops: A row per loop and motion.
         development: A row per loop on the network.
-        triples: A row per new motion.
+        novel: A row per new sequence, by the set's name.
         slow_state_map: A row per primitive and point of the map.
         facts: Settings and environment.
     """
@@ -53,19 +62,50 @@ class Collected:
     runs: pd.DataFrame
     loops: pd.DataFrame
     development: pd.DataFrame
-    triples: pd.DataFrame
+    novel: dict[str, pd.DataFrame]
     slow_state_map: pd.DataFrame
     facts: Facts
 
     @property
-    def conditions(self) -> tuple[Condition, ...]:
-        """The conditions that have an ended run."""
-        present = set(self.loops["condition"])
-        return tuple(c for c in CONDITIONS if c.name in present)
+    def study(self) -> Study:
+        """The settings of all runs."""
+        return self.facts.study
 
-    def inside(self, condition: Condition, seed: int) -> dict[str, ndarray] | None:
+    @property
+    def task(self) -> Task:
+        """The task of all runs."""
+        return self.study.task.task()
+
+    @property
+    def new_sequences(self) -> pd.DataFrame:
+        """The rows of all sets of new sequences."""
+        filled = [table for table in self.novel.values() if len(table)]
+        none = self.loops.iloc[:0].assign(trained=False)
+        return pd.concat(filled, ignore_index=True) if filled else none
+
+    @property
+    def looks(self) -> dict[str, Look]:
+        """The conditions that have an ended run, in order, and how each is drawn."""
+        present = set(self.loops["condition"])
+        looks = looks_of(self.study.factors)
+        return {name: look for name, look in looks.items() if name in present}
+
+    @cached_property
+    def robot(self) -> SimulatedRobot:
+        """The robot of all runs: its channels, its model, where its eye is."""
+        # Nothing is looked at: a machine that renders no pictures can read about those that do.
+        unseeing = self.study.body.model_copy(update={"vision": "projection"})
+        return open_body(unseeing, self.task)
+
+    @property
+    def strokes(self) -> Mapping[str, tuple[float, float]]:
+        """Every primitive's direction [rad] and extent [rad] as the robot sees it."""
+        return true_strokes(self.task, self.robot.eye_position)
+
+    def inside(self, condition: str, seed: int) -> dict[str, ndarray] | None:
         """Return what was kept of a run's performances, or None; `RunFolderError` if damaged."""
-        path = self.folder / condition.folder / f"seed-{seed}" / "inside.npz"
+        of = condition_named(condition, self.study.factors)
+        path = self.folder / of.folder / f"seed-{seed}" / "inside.npz"
         return read_inside(path) if path.is_file() else None
 
 
@@ -80,21 +120,23 @@ def collect(folder: Path) -> Collected:
     if not folder.is_dir():
         raise RunFolderError(f"{folder}: there is no such run folder")
     facts = read_facts(folder)
-    runs = [(run, read_end(run)) for run in _runs(folder)]
+    runs = [(run, read_end(run)) for run in _runs(folder, facts.study)]
     ended = [(run, end) for run, end in runs if end is not None]
     if not ended:
         raise RunFolderError(
             f"{folder}: no ended run in it; "
             + (f"{len(runs)} were begun" if runs else "runs lie in folders such as TD-MD/seed-100")
         )
-    tables = {name: _together(name, ended) for name in LEADING_COLUMNS}
+    columns = leading_columns(facts.study)
+    tables = {name: _together(name, columns[name], ended) for name in columns}
+    novel = {name: tables.pop(name) for name in facts.study.task.task().novel}
     how = pd.DataFrame([_how_it_ended(run, end) for run, end in runs])
-    return Collected(folder=folder, runs=how, facts=facts, **tables)
+    return Collected(folder=folder, runs=how, facts=facts, novel=novel, **tables)
 
 
-def _runs(folder: Path) -> list[Run]:
+def _runs(folder: Path, study: Study) -> list[Run]:
     found = []
-    for condition in CONDITIONS:
+    for condition in study.conditions:
         numbered = [
             (int(path.name.removeprefix("seed-")), path)
             for path in (folder / condition.folder).glob("seed-*")
@@ -117,9 +159,10 @@ def _how_it_ended(run: Run, end: dict[str, Any] | None) -> dict[str, Any]:
     }
 
 
-def _together(name: str, ended: list[tuple[Run, dict[str, Any]]]) -> pd.DataFrame:
-    leading = LEADING_COLUMNS[name]
-    read = [_table(run, end, name) for run, end in ended]
+def _together(
+    name: str, leading: list[str], ended: list[tuple[Run, dict[str, Any]]]
+) -> pd.DataFrame:
+    read = [_table(run, end, name, leading) for run, end in ended]
     if not any(len(table) for table in read):
         return pd.DataFrame(columns=leading)
     table = pd.concat([table for table in read if len(table)], ignore_index=True)
@@ -127,10 +170,9 @@ def _together(name: str, ended: list[tuple[Run, dict[str, Any]]]) -> pd.DataFram
     return table.reindex(columns=[*leading, *others])
 
 
-def _table(run: Run, end: dict[str, Any], name: str) -> pd.DataFrame:
-    if end["status"] == "diverged" and name in EVALUATED:
+def _table(run: Run, end: dict[str, Any], name: str, leading: list[str]) -> pd.DataFrame:
+    if end["status"] == "diverged" and name not in ("loops", "development"):
         return pd.DataFrame()  # a diverged run is not evaluated
     rows = end.get("rows", {}).get(f"{name}.csv")
-    # A network without a slow level has no map.
-    empty = name == "slow_state_map"
-    return read_table(run, name, LEADING_COLUMNS[name], rows, may_be_empty=empty)
+    # A network without a slow level has no map, and a set of lessons alone nothing new.
+    return read_table(run, name, leading, rows, may_be_empty=name not in ("loops", "development"))

@@ -1,4 +1,6 @@
-"""What happens over the loops: imitation error (Fig. 8), where it comes from, buttons pressed."""
+"""What happens over the loops: imitation error (Fig. 8), where it comes from, what is achieved."""
+
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -6,10 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from motionese.analysis.claims import CONVERGED_CM
+from motionese.analysis.measures import achieved
 from motionese.analysis.statistics import estimate
-from motionese.analysis.style import FAINT, LOOKS, WIDTH, light_grid
-from motionese.experiment.conditions import Condition
+from motionese.analysis.style import Look, light_grid
+from motionese.figure_style import FAINT, WIDTH
+from motionese.task import Outcome
 
 SOURCES = {
     "recognition_residual_cm": "Recognition residual\n(understood − shown)",
@@ -19,44 +22,55 @@ SOURCES = {
 EVERY = 3
 """A marker on every so many loops."""
 
+Looks = Mapping[str, Look]
+"""The conditions that are drawn, in order, and how."""
 
-def course(loops: pd.DataFrame, condition: Condition, column: str) -> pd.DataFrame:
+
+def course(loops: pd.DataFrame, condition: str, column: str) -> pd.DataFrame:
     """Return the median over seeds of each loop's mean over motions, with its 95 % interval."""
-    own = loops[loops["condition"] == condition.name]
+    own = loops[loops["condition"] == condition]
     by_loop = own.groupby(["loop", "seed"])[column].mean().unstack("seed")
     estimates = [estimate(row) for row in by_loop.to_numpy(dtype=np.float64)]
     rows = [(e.value, e.low, e.high) for e in estimates]
     return pd.DataFrame(rows, index=by_loop.index, columns=["value", "low", "high"])
 
 
-def learning_curves(loops: pd.DataFrame, conditions: tuple[Condition, ...]) -> Figure:
-    """Draw the imitation error over the loops, one curve a condition."""
+def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | None) -> Figure:
+    """Draw the imitation error over the loops, one curve a condition.
+
+    Args:
+        loops: A row per condition, seed, loop and motion.
+        looks: The conditions.
+        converged_cm: From which error on a run counts as converged, if there is such a bound.
+    """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
-    for condition in conditions:
-        _draw_course(axes, course(loops, condition, "imitation_error_cm"), condition)
+    for condition, look in looks.items():
+        _draw_course(axes, course(loops, condition, "imitation_error_cm"), condition, look)
     axes.set_yscale("log")
-    axes.axhline(CONVERGED_CM, color=FAINT, linewidth=0.8, linestyle=":")
-    axes.annotate(
-        "converged: within a button's radius", (loops["loop"].max() + 0.4, CONVERGED_CM),
-        xytext=(0, 2), textcoords="offset points", ha="right", va="bottom", color=FAINT, fontsize=8,
-    )  # fmt: skip
-    _mark_phases(axes, loops, named=True)
+    if converged_cm is not None:
+        axes.axhline(converged_cm, color=FAINT, linewidth=0.8, linestyle=":")
+        axes.annotate(
+            "converged: within a button's radius", (loops["loop"].max() + 0.4, converged_cm),
+            xytext=(0, 2), textcoords="offset points", ha="right", va="bottom", color=FAINT,
+            fontsize=8,
+        )  # fmt: skip
+    _mark_stages(axes, loops, named=True)
     _plain_log(axes)
     axes.set(xlabel="imitation loop", ylabel="imitation error [cm], log scale")
     axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.04))
     return figure
 
 
-def error_sources(loops: pd.DataFrame, conditions: tuple[Condition, ...]) -> Figure:
+def error_sources(loops: pd.DataFrame, looks: Looks) -> Figure:
     """Draw what the imitation error is made of over the loops."""
     figure = Figure(figsize=(WIDTH, 3.3))
     panels = figure.subplots(1, len(SOURCES), sharex=True, sharey=True)
     for axes, (column, title) in zip(panels, SOURCES.items(), strict=True):
-        for condition in conditions:
-            _draw_course(axes, course(loops, condition, column), condition)
+        for condition, look in looks.items():
+            _draw_course(axes, course(loops, condition, column), condition, look)
         axes.set_yscale("log")
-        _mark_phases(axes, loops)
+        _mark_stages(axes, loops)
         _plain_log(axes)
         axes.set(title=title, xlabel="imitation loop")
     panels[0].set_ylabel("error [cm], log scale")
@@ -67,45 +81,48 @@ def error_sources(loops: pd.DataFrame, conditions: tuple[Condition, ...]) -> Fig
     return figure
 
 
-def buttons_pressed(loops: pd.DataFrame, conditions: tuple[Condition, ...]) -> Figure:
-    """Draw the share of due presses that were made, all seeds and motions of a loop together."""
+def success(loops: pd.DataFrame, looks: Looks, outcomes: Sequence[Outcome]) -> Figure:
+    """Draw what was achieved, all seeds and motions of a loop together, a panel an outcome."""
     figure = Figure(figsize=(WIDTH, 3.3))
-    axes = figure.subplots()
-    for condition in conditions:
-        own = loops[loops["condition"] == condition.name]
-        counts = own.groupby("loop")[["buttons_due", "buttons_pressed"]].sum()
-        share = 100 * counts["buttons_pressed"] / counts["buttons_due"].where(lambda n: n > 0)
-        look = LOOKS[condition.name].curve()
-        axes.plot(share.index, share, **look, markevery=EVERY, label=condition.name)
-    axes.axhline(90, color=FAINT, linewidth=0.8, linestyle=":")
-    _mark_phases(axes, loops)
-    light_grid(axes)
-    axes.set(xlabel="imitation loop", ylabel="due presses that were made [%]", ylim=(-3, 103))
-    axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    panels = figure.subplots(1, len(outcomes), sharex=True, squeeze=False)[0]
+    for axes, outcome in zip(panels, outcomes, strict=True):
+        by_loop = achieved(loops, outcome, index=("loop",)) * (100 if outcome.of else 1)
+        for condition, look in looks.items():
+            values = by_loop[condition].dropna()
+            axes.plot(values.index, values, **look.curve(), markevery=EVERY, label=condition)
+        unit = "%" if outcome.of else outcome.unit
+        axes.set(xlabel="imitation loop", ylabel=f"{outcome.title} [{unit}]")
+        axes.set_ylim((-3, 103) if outcome.of else (0, None))
+        _mark_stages(axes, loops)
+        light_grid(axes)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=4, loc="outside upper center")
     return figure
 
 
-def _draw_course(axes: Axes, curve: pd.DataFrame, condition: Condition) -> None:
-    look = LOOKS[condition.name]
+def _draw_course(axes: Axes, curve: pd.DataFrame, condition: str, look: Look) -> None:
     axes.fill_between(
         curve.index, curve["low"], curve["high"], color=look.colour, alpha=0.16, linewidth=0
     )
-    axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition.name)
+    axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition)
 
 
-def _mark_phases(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
-    """Mark the change from phase 1 to phase 2, if there is one."""
+def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
+    """Mark where stages begin, if they begin in the same loop in all runs."""
     last = loops["loop"].max()
     axes.set_xlim(0.5, last + 0.5)
-    first = loops.loc[loops["phase"] == 1, "loop"].max()
-    if not (first < last):
+    begins = loops.groupby(["condition", "seed", "phase"])["loop"].min().groupby("phase")
+    stages = begins.agg(["min", "max"])
+    if len(stages) < 2 or (stages["min"] != stages["max"]).any():
         return
-    axes.axvline(first + 0.5, color=FAINT, linewidth=1.0)
-    if named:
-        for x, text in (((first + 1) / 2, "phase 1"), ((first + 1 + last) / 2, "phase 2")):
+    edges = [*stages["min"], last + 1]
+    for stage, begin, end in zip(stages.index, edges, edges[1:], strict=False):
+        if begin > 1:
+            axes.axvline(begin - 0.5, color=FAINT, linewidth=1.0)
+        if named:
             axes.annotate(
-                text, (x, 1.0), xycoords=("data", "axes fraction"), ha="center", va="bottom",
-                color=FAINT,
+                f"stage {stage}", ((begin + end - 1) / 2, 1.0), color=FAINT,
+                xycoords=("data", "axes fraction"), ha="center", va="bottom",
             )  # fmt: skip
 
 

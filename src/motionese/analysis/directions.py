@@ -20,8 +20,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.body import EYE_POSITION
-from motionese.caregiver import PUSHING_BUTTONS, Demonstrating
+from motionese.task import Task
 
 WITHIN = np.pi / 4
 """A direction counts as right up to this far [rad] from a true one."""
@@ -31,13 +30,13 @@ WITHIN = np.pi / 4
 class Shares:
     """Shares of the direction's variance, explained by Cf_0 alone and by Cs_0 alone."""
 
-    by_cf: float
-    by_cs: float
+    by_held: float
+    by_varied: float
 
     @property
     def together(self) -> float:
         """What both explain additively."""
-        return self.by_cf + self.by_cs
+        return self.by_held + self.by_varied
 
 
 def resultant_length(directions: Float[ndarray, "*shape G"]) -> Float[ndarray, "*shape"]:
@@ -55,9 +54,9 @@ def direction_shares(directions: Float[ndarray, "P G"]) -> Shares:
     if total < 1e-12 * z.size:
         return Shares(float("nan"), float("nan"))
     primitives, points = z.shape
-    by_cf = points * (np.abs(z.mean(axis=1) - z.mean()) ** 2).sum() / total
-    by_cs = primitives * (np.abs(z.mean(axis=0) - z.mean()) ** 2).sum() / total
-    return Shares(float(by_cf), float(by_cs))
+    by_held = points * (np.abs(z.mean(axis=1) - z.mean()) ** 2).sum() / total
+    by_varied = primitives * (np.abs(z.mean(axis=0) - z.mean()) ** 2).sum() / total
+    return Shares(float(by_held), float(by_varied))
 
 
 def share_within(directions: Float[ndarray, " G"], true: Sequence[float]) -> float:
@@ -67,22 +66,24 @@ def share_within(directions: Float[ndarray, " G"], true: Sequence[float]) -> flo
     return float((off.min(axis=1) <= WITHIN).mean())
 
 
-def true_strokes(manner: Demonstrating) -> Mapping[str, tuple[float, float]]:
+def true_strokes(
+    task: Task, eye_position: Float[ndarray, "3"]
+) -> Mapping[str, tuple[float, float]]:
     """Return every primitive's direction [rad] and extent [rad] as seen from the robot's eye.
 
     0 rad points to the robot's right, π/2 upwards.
     """
     strokes = {}
-    for motion in PUSHING_BUTTONS.sequences(1):
-        (x0, y0, z0), (x1, y1, z1) = (manner.corner(c) - EYE_POSITION for c in motion.corners)
+    for sequence in task.sequences(1):
+        (x0, y0, z0), (x1, y1, z1) = (task.position(p) - eye_position for p in sequence.places)
         elevation = np.arctan2(z0, np.hypot(x0, y0))
         up = np.arctan2(z1, np.hypot(x1, y1)) - elevation
         right = (np.arctan2(y0, x0) - np.arctan2(y1, x1)) * np.cos(elevation)
-        strokes[motion.name] = (float(np.arctan2(up, right)), float(np.hypot(up, right)))
+        strokes[sequence.name] = (float(np.arctan2(up, right)), float(np.hypot(up, right)))
     return strokes
 
 
-def following(primitive: str) -> tuple[str, ...]:
-    """Return the primitives that may follow one, by the names of their motions."""
-    end = PUSHING_BUTTONS.motion(primitive).corners[-1]
-    return tuple(m.name for m in PUSHING_BUTTONS.sequences(1) if m.start == end)
+def following(task: Task, primitive: str) -> tuple[str, ...]:
+    """Return the primitives that may follow one, by the names of their sequences."""
+    end = task.sequence(primitive).places[-1]
+    return tuple(s.name for s in task.sequences(1) if s.start == end)

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from motionese.errors import RunFolderError, SettingError
-from motionese.experiment.reading import checked, read_settings
+from motionese.experiment import Study
+from motionese.experiment.presets import study_of
 from motionese.experiment.run_folder import ENVIRONMENT, SETTINGS, run_settings
-from motionese.experiment.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -17,47 +17,42 @@ class Facts:
     """Settings and environment of a run folder.
 
     Attributes:
-        settings: The experiment's settings; the default's where the folder does not tell them.
+        study: The settings of all its runs.
         record: Everything `settings.json` holds beside them, such as the preset.
         environment: Everything `environment.json` holds.
-        told: Whether the folder tells its settings.
     """
 
-    settings: Settings
+    study: Study
     record: dict[str, Any]
     environment: dict[str, Any]
-    told: bool
 
 
 def read_facts(folder: Path) -> Facts:
-    """Read `settings.json` and `environment.json` of a run folder, as far as they are there.
+    """Read `settings.json`, and `environment.json` if it is there, of a run folder.
 
     Raises:
-        RunFolderError: One of them is damaged, or the settings are not of this version.
+        RunFolderError: One of them is damaged, there are no settings, or not of this version.
     """
+    try:
+        study = study_of(run_settings(folder))
+    except SettingError as error:
+        raise RunFolderError(
+            f"{folder / SETTINGS} does not fit this version of motionese: {error}"
+        ) from error
     record = _json(folder / SETTINGS)
-    told = (folder / SETTINGS).is_file()
-    settings = _settings(folder) if told else read_settings()
     record.pop("settings", None)
-    return Facts(settings, record, _json(folder / ENVIRONMENT), told)
+    return Facts(study, record, _json(folder / ENVIRONMENT))
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str]]:
     """Yield every entry of nested tables as a dotted name with its value in words."""
     for name, value in table.items():
-        if isinstance(value, Mapping) and value:
-            yield from flat(value, f"{prefix}{name}.")
+        listed = isinstance(value, list) and value and isinstance(value[0], Mapping)
+        within = {str(i): each for i, each in enumerate(value)} if listed else value
+        if isinstance(within, Mapping) and within:
+            yield from flat(within, f"{prefix}{name}.")
         else:
             yield f"{prefix}{name}", _in_words(value)
-
-
-def _settings(folder: Path) -> Settings:
-    try:
-        return checked(run_settings(folder))
-    except SettingError as error:
-        raise RunFolderError(
-            f"{folder / SETTINGS} does not fit this version of motionese: {error}"
-        ) from error
 
 
 def _in_words(value: Any) -> str:

@@ -1,18 +1,25 @@
 """Which figures the report shows, and what their captions say."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+import pandas as pd
 from matplotlib import rc_context
+from numpy import ndarray
 
 from motionese.analysis.collected import Collected
-from motionese.analysis.curves import buttons_pressed, error_sources, learning_curves
-from motionese.analysis.directions import true_strokes
-from motionese.analysis.figures_inside import of_the_inside, seeds_shown
+from motionese.analysis.curves import error_sources, learning_curves, success
+from motionese.analysis.film import film
+from motionese.analysis.inside import Performed, inside
+from motionese.analysis.map_figure import slow_state_map
+from motionese.analysis.map_numbers import level_names
 from motionese.analysis.measures import Measures, typical_seed
-from motionese.analysis.new_motions import new_motions
-from motionese.analysis.slow_map import slow_state_map
-from motionese.analysis.style import SETTINGS, Drawing, Sketch, finished
+from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
+from motionese.analysis.new_sequences import new_sequences
+from motionese.analysis.paths import paths
+from motionese.analysis.style import Sketch
+from motionese.figure_style import SETTINGS, Drawing, finished
+from motionese.imitation import sample_sequence
 
 OVER_SEEDS = (
     "Lines are medians over seeds of a loop's mean over its motions, bands their bootstrap 95 % "
@@ -32,7 +39,7 @@ class Shown:
 
 def figures(collected: Collected, measures: Measures) -> Iterator[Shown]:
     """Draw all figures that the runs allow, one after the other."""
-    for draw in (_over_loops, _of_new_motions, _of_the_map, of_the_inside):
+    for draw in (_over_loops, _of_new_sequences, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):
             drawn = [
                 Shown(each.name, each.section, each.caption, finished(each.figure, each.name))
@@ -42,14 +49,20 @@ def figures(collected: Collected, measures: Measures) -> Iterator[Shown]:
 
 
 def _over_loops(collected: Collected, measures: Measures) -> Iterator[Sketch]:
-    loops, conditions = collected.loops, collected.conditions
+    loops, looks = collected.loops, collected.looks
+    converged = CONVERGED_CM if has_its_design(collected.study) else None
+    stages = (
+        " Upright lines are changes of stage: what is taught changes, or a level of the network "
+        "opens."
+        if len(collected.study.stages) > 1
+        else ""
+    )
     yield Sketch(
         "learning_curves",
         "learning",
-        "Imitation error over the loops (the paper's Fig. 8): mean distance of the robot's hand "
-        f"from the shown one. {OVER_SEEDS} The upright line is the change of phase: teaching moves "
-        "on to sequences (TD), the network opens its slow level (MD).",
-        learning_curves(loops, conditions),
+        "Imitation error over the loops: mean distance of the robot's hand from the shown one. "
+        f"{OVER_SEEDS}{stages}",
+        learning_curves(loops, looks, converged),
     )
     yield Sketch(
         "error_sources",
@@ -57,42 +70,37 @@ def _over_loops(collected: Collected, measures: Measures) -> Iterator[Sketch]:
         "Where the error comes from: what was recognised against what was shown, what the body did "
         "against what the network predicted, and what the trained network reproduces of its own "
         f"experience. {OVER_SEEDS}",
-        error_sources(loops, conditions),
+        error_sources(loops, looks),
     )
     yield Sketch(
-        "buttons",
-        "buttons",
-        "Presses that were due and were made, all seeds and motions of a loop together; the dotted "
-        "line is at 90 %.",
-        buttons_pressed(loops, conditions),
+        "success",
+        "success",
+        "What was achieved, all seeds and motions of a loop together: "
+        f"{'; '.join(outcome.title for outcome in collected.task.outcomes)}.",
+        success(loops, looks, collected.task.outcomes),
     )
 
 
-def _of_new_motions(collected: Collected, measures: Measures) -> Iterator[Sketch]:
-    present = set(collected.triples["condition"])
-    conditions = tuple(c for c in collected.conditions if c.name in present)
-    if conditions:
+def _of_new_sequences(collected: Collected, measures: Measures) -> Iterator[Sketch]:
+    present = set(collected.new_sequences["condition"])
+    looks = {name: look for name, look in collected.looks.items() if name in present}
+    if looks:
         yield Sketch(
-            "new_motions",
-            "new motions",
-            "Imitation of triples after the last loop (Fig. 9), none of which was taught as a "
-            "whole: of taught pairs (trained), and with a pair that is never taught (untrained). "
-            "A point is a seed's mean over motions, joined across the two; black bars beside them "
-            "are medians over seeds with their bootstrap 95 % intervals.",
-            new_motions(measures, conditions),
+            "new_sequences",
+            "new sequences",
+            "Imitation of new sequences after the last loop, none of which was taught as a whole: "
+            "of taught pairs (trained), and with a pair that was never taught (untrained). A point "
+            "is a seed's mean over sequences, joined across the two; black bars beside them are "
+            "medians over seeds with their bootstrap 95 % intervals.",
+            new_sequences(measures, looks),
         )
 
 
 def _of_the_map(collected: Collected, measures: Measures) -> Iterator[Sketch]:
-    lengths = measures.resultant_length
-    shown = {
-        c: typical_seed(lengths[c.name])
-        for c in collected.conditions
-        if lengths[c.name].notna().any()
-    }
+    shown = _typical(measures.resultant_length)
     if not shown:
         return
-    strokes = true_strokes(collected.facts.settings.caregiver)
+    below, top = (name.capitalize() for name in level_names(collected.study))
     for segment, what, right in (
         (1, "the first segment", "the primitive's own direction"),
         (2, "the second segment", "the direction of a primitive that may follow"),
@@ -100,10 +108,74 @@ def _of_the_map(collected: Collected, measures: Measures) -> Iterator[Sketch]:
         yield Sketch(
             f"slow_state_map_{segment}",
             "map",
-            f"The map of Cs₀ (Fig. 10), {what}: where the hand goes, as the robot sees it, when "
-            "each primitive's Cf₀ is held and Cs₀ is varied. In the condition's colour: within 45° "
-            f"of {right}; in pink: beyond. An arrow fills its cell where the hand goes as far as "
-            "the stroke is long. Shown is the seed of median resultant length: "
-            f"{seeds_shown(shown)}; the numbers below are over all seeds.",
-            slow_state_map(collected.slow_state_map, shown, strokes, segment),
+            f"The map of {top}₀, {what}: where the hand goes, as the robot sees it, when each "
+            f"primitive's {below}₀ is held and {top}₀ is varied. In the condition's colour: within "
+            f"45° of {right}; in pink: beyond. An arrow fills its cell where the hand goes as far "
+            "as the stroke is long. Shown is the seed of median resultant length: "
+            f"{_in_words(shown)}; the numbers below are over all seeds.",
+            slow_state_map(collected, shown, segment),
         )
+
+
+def _of_the_inside(collected: Collected, measures: Measures) -> Iterator[Sketch]:
+    """Draw paths, activity and a film strip of each condition's run of median error."""
+    errors = collected.new_sequences.pivot_table(
+        index="seed", columns="condition", values="imitation_error_cm", aggfunc="mean"
+    )
+    seeds = _typical(errors.reindex(columns=list(collected.looks)))
+    kept = {c: arrays for c, s in seeds.items() if (arrays := collected.inside(c, s))}
+    sample = sample_sequence(collected.task)
+    if not kept or sample is None:
+        return
+    chosen = f"Shown is the seed of median error: {_in_words({c: seeds[c] for c in kept})}."
+    yield Sketch(
+        "paths",
+        "inside",
+        "The hand's path (coloured) against the shown one (grey), as the robot sees them, for "
+        "every new sequence; the dot is where it starts, bars are where something is to be "
+        f"pressed. {chosen}",
+        paths(kept, collected),
+    )
+    yield Sketch(
+        "inside",
+        "inside",
+        f"The network while it performs {sample.name}: activity of every unit, the slowest level "
+        "on top, and the way of the context units through the plane of their largest variance. "
+        "Upright lines and circled numbers: where the next primitive begins in what was shown; "
+        f"dot: start; square: end. {chosen}",
+        inside({c: _performed(a, collected) for c, a in kept.items()}, sample.name,
+               collected.looks),
+    )  # fmt: skip
+    strongest = max(kept, key=lambda c: _strongest_effect(kept[c]))
+    strip, note = film(kept[strongest], collected.robot.model, collected.robot.rate_hz)
+    yield Sketch(
+        "film",
+        "inside",
+        f"The robot performs {sample.name}: {strongest}, seed {seeds[strongest]}. {note}".strip(),
+        strip,
+    )
+
+
+def _strongest_effect(kept: Mapping[str, ndarray]) -> float:
+    effects = [values.max() for name, values in kept.items() if name.startswith("effect.")]
+    return float(max(effects, default=0.0))
+
+
+def _performed(kept: Mapping[str, ndarray], collected: Collected) -> Performed:
+    activity, levels, begin = kept["activity"], {}, 0
+    for level in collected.study.network.drawn_levels(collected.robot.channels):
+        if begin < activity.shape[1]:
+            levels[level.name] = slice(begin, begin + level.size)
+            begin += level.size
+    boundaries = [int(row) for row in kept["begins"][1:]]
+    return Performed(activity, levels, boundaries, collected.robot.rate_hz)
+
+
+def _typical(by_seed: pd.DataFrame) -> dict[str, int]:
+    """Return the seed of median value of every condition that has one."""
+    return {str(c): typical_seed(by_seed[c]) for c in by_seed if by_seed[c].notna().any()}
+
+
+def _in_words(shown: Mapping[str, int]) -> str:
+    """Return which seed of each condition is shown."""
+    return ", ".join(f"{condition} {seed}" for condition, seed in shown.items())

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from numpy import ndarray
 
-from motionese.analysis.style import FAINT, INK, LOOKS, PAPER, WIDTH
-from motionese.experiment.conditions import Condition
+from motionese.analysis.curves import Looks
+from motionese.figure_style import FAINT, INK, PAPER, WIDTH
 
-ROWS_PER_UNIT = {"io": 2.0, "cf": 0.5, "cs": 2.0}
-"""How high a unit is drawn [relative]: Cf has many, Cs has few."""
+FEW_UNITS = 15
+"""A level of more units is drawn in rows of a quarter of the height."""
 
 
 @dataclass(frozen=True)
@@ -33,17 +33,6 @@ class Performed:
     rate_hz: float
 
 
-def levels_of(sizes: Mapping[str, int], units: int) -> dict[str, slice]:
-    """Return the columns of every level that is open in a network of so many units."""
-    levels, begin = {}, 0
-    for name, size in sizes.items():
-        if begin + size > units:
-            break
-        levels[name] = slice(begin, begin + size)
-        begin += size
-    return levels
-
-
 def principal_plane(
     activity: Float[ndarray, "T n"],
 ) -> tuple[Float[ndarray, "T 2"], Float[ndarray, "2"]]:
@@ -57,24 +46,23 @@ def principal_plane(
     return u[:, :2] * s[:2] * signs, share
 
 
-def inside(performed: Mapping[Condition, Performed], motion: str) -> Figure:
-    """Draw, a row per condition, the activity over time and Cf's and Cs's principal planes."""
+def inside(performed: Mapping[str, Performed], motion: str, looks: Looks) -> Figure:
+    """Draw, a row per condition, the activity over time and the context's principal planes."""
     figure = Figure(figsize=(WIDTH, 0.4 + 2.35 * len(performed)))
     rows = figure.subfigures(len(performed), 1, squeeze=False)[:, 0]
     for place, (row, (condition, one)) in enumerate(zip(rows, performed.items(), strict=True)):
         context = [name for name in one.levels if name != "io"]
         widths = [2.0] + [1.0] * len(context)
         left, *planes = row.subfigures(1, len(widths), width_ratios=widths)
-        _activity(left, one, f"{condition.name}, {motion}", last=place == len(rows) - 1)
+        _activity(left, one, f"{condition}, {motion}", last=place == len(rows) - 1)
         for part, name in zip(planes, context, strict=True):
-            _plane(part.subplots(), one, name, LOOKS[condition.name].colour)
+            _plane(part.subplots(), one, name, looks[condition].colour)
     return figure
 
 
 def _activity(figure: SubFigure, one: Performed, title: str, *, last: bool) -> None:
-    heights = [
-        ROWS_PER_UNIT.get(name, 1.0) * (part.stop - part.start) for name, part in one.levels.items()
-    ]
+    sizes = [part.stop - part.start for part in one.levels.values()]
+    heights = [size * (2.0 if size <= FEW_UNITS else 0.5) for size in sizes]
     # The slowest level is on top, as in drawings of the network.
     panels = figure.subplots(
         len(heights), 1, sharex=True, squeeze=False, height_ratios=heights[::-1]

@@ -1,15 +1,17 @@
-"""What the claims are about: one number per condition and seed, for every measure."""
+"""What is compared: one number per condition and seed, for every measure."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import pandas as pd
 
-from motionese.experiment.conditions import CONDITIONS
-from motionese.experiment.settings import Phases
+from motionese.analysis.collected import Collected
+from motionese.analysis.map_numbers import level_names
+from motionese.task import Outcome
 
 LAST_LOOPS = 3
-"""The error at the end of a phase is the mean over its last loops."""
+"""The error at the end of a stage is the mean over its last loops."""
 
 
 @dataclass(frozen=True)
@@ -17,16 +19,18 @@ class Measures:
     """Tables with a row per seed and a column per condition, NaN where there is no such run.
 
     Attributes:
-        error_at_end: Imitation error [cm] at the end of phase 1 and of phase 2; without rows for a
-            phase of no loops.
-        trained_error: Mean imitation error [cm] of the triples made of taught pairs.
-        untrained_error: The same of those with a pair that is never taught.
-        untrained_spread: Standard deviation [cm] of the latter over the motions.
+        error_at_end: Imitation error [cm] at the end of every stage, by its number from 1.
+        achieved: The outcomes [share, or the outcome's unit] in the last loops, by their titles.
+        trained_error: Mean imitation error [cm] of the new sequences made of taught pairs.
+        untrained_error: The same of those with a pair that was never taught.
+        untrained_spread: Standard deviation [cm] of the latter over the sequences.
         resultant_length: Mean resultant length of the first segment's direction over the map.
-        slow_level_part: Share of the second segment's direction variance Cs_0 takes part in.
+        slow_level_part: Share of the second segment's direction variance the top level takes part
+            in.
     """
 
     error_at_end: dict[int, pd.DataFrame]
+    achieved: dict[str, pd.DataFrame]
     trained_error: pd.DataFrame
     untrained_error: pd.DataFrame
     untrained_spread: pd.DataFrame
@@ -35,47 +39,77 @@ class Measures:
 
     @property
     def last_error(self) -> pd.DataFrame:
-        """Imitation error [cm] at the end of the last phase that has loops."""
-        return self.error_at_end[1 if self.error_at_end[2].empty else 2]
+        """Imitation error [cm] at the end of the last stage."""
+        return self.error_at_end[max(self.error_at_end)]
 
 
-def measured(
-    loops: pd.DataFrame, triples: pd.DataFrame, numbers: pd.DataFrame, phases: Phases
-) -> Measures:
+def measured(collected: Collected, numbers: pd.DataFrame) -> Measures:
     """Return the measures.
 
     Args:
-        loops: A row per condition, seed, loop and motion.
-        triples: A row per condition, seed and new motion.
+        collected: The runs.
         numbers: A row per condition and seed on its map.
-        phases: Which loops the phases have.
     """
-    taught = triples["trained"].astype(bool)
-    kept = numbers.assign(part=1 - numbers["share_cf_2"])
-    # Up to the end of a phase 2 of no loops, phase 1's would be taken for its error.
-    second = loops if phases.change_after < phases.loops else loops.iloc[:0]
+    names = [condition.name for condition in collected.study.conditions]
+    loops, new = collected.loops, collected.new_sequences
+    trained = new["trained"].astype(bool)
+    below, _ = level_names(collected.study)
+    kept = numbers.assign(part=1 - numbers[f"share_{below}_2"])
+    stages = range(1, len(collected.study.stages) + 1)
+    at_end = last_loops(loops)
     return Measures(
-        error_at_end={1: error_at_end(loops, 1), 2: error_at_end(second, 2)},
-        trained_error=_by_seed(triples[taught], "imitation_error_cm"),
-        untrained_error=_by_seed(triples[~taught], "imitation_error_cm"),
-        untrained_spread=_by_seed(triples[~taught], "imitation_error_cm", "std"),
-        resultant_length=_by_seed(numbers, "resultant_length_1"),
-        slow_level_part=_by_seed(kept, "part"),
+        error_at_end={n: error_at_end(loops, n).reindex(columns=names) for n in stages},
+        achieved={
+            outcome.title: achieved(at_end, outcome).reindex(columns=names)
+            for outcome in collected.task.outcomes
+        },
+        trained_error=_by_seed(new[trained], "imitation_error_cm").reindex(columns=names),
+        untrained_error=_by_seed(new[~trained], "imitation_error_cm").reindex(columns=names),
+        untrained_spread=_by_seed(new[~trained], "imitation_error_cm", "std").reindex(
+            columns=names
+        ),
+        resultant_length=_by_seed(numbers, "resultant_length_1").reindex(columns=names),
+        slow_level_part=_by_seed(kept, "part").reindex(columns=names),
     )
 
 
-def error_at_end(loops: pd.DataFrame, phase: int) -> pd.DataFrame:
-    """Return the mean imitation error [cm] of each run's last loops up to the end of a phase.
+def last_loops(loops: pd.DataFrame, stage: int | None = None) -> pd.DataFrame:
+    """Return the rows of each run's last loops up to the end of a stage, or of the last one.
 
-    A run that diverged before keeps the error of its last loops: to leave it out would make its
-    condition look better than it is.
+    A run that diverged before keeps its last loops: to leave it out would make its condition look
+    better than it is.
     """
-    early = loops[loops["phase"] <= phase]
-    by_loop = early.groupby(["condition", "seed", "loop"], as_index=False)[
-        ["imitation_error_cm"]
-    ].mean()
-    last = by_loop.sort_values("loop").groupby(["condition", "seed"]).tail(LAST_LOOPS)
-    return _by_seed(last, "imitation_error_cm")
+    early = loops if stage is None else loops[loops["phase"] <= stage]
+    last = early.groupby(["condition", "seed"])["loop"].transform("max")
+    return early[early["loop"] > last - LAST_LOOPS]
+
+
+def error_at_end(loops: pd.DataFrame, stage: int) -> pd.DataFrame:
+    """Return the mean imitation error [cm] of each run's last loops up to the end of a stage."""
+    by_loop = (
+        last_loops(loops, stage)
+        .groupby(["condition", "seed", "loop"], as_index=False)[["imitation_error_cm"]]
+        .mean()
+    )
+    return _by_seed(by_loop, "imitation_error_cm")
+
+
+def achieved(
+    rows: pd.DataFrame, outcome: Outcome, index: Sequence[str] = ("seed",)
+) -> pd.DataFrame:
+    """Return what was achieved in some rows: a share of what was due, or the mean.
+
+    Args:
+        rows: Rows of imitations.
+        outcome: The column, and what it is a share of.
+        index: What the result has a row for; columns are conditions.
+    """
+    group = rows.groupby([*index, "condition"])
+    if not outcome.of:
+        return group[outcome.column].mean().unstack("condition").astype(float)
+    counts = group[[outcome.of, outcome.column]].sum()
+    due = counts[outcome.of].where(lambda n: n > 0)
+    return (counts[outcome.column] / due).unstack("condition").astype(float)
 
 
 def typical_seed(by_seed: "pd.Series[float]") -> int:
@@ -88,4 +122,4 @@ def _by_seed(
     table: pd.DataFrame, column: str, statistic: Literal["mean", "std"] = "mean"
 ) -> pd.DataFrame:
     wide = table.pivot_table(index="seed", columns="condition", values=column, aggfunc=statistic)
-    return wide.reindex(columns=[c.name for c in CONDITIONS]).astype(float).sort_index()
+    return wide.astype(float).sort_index()

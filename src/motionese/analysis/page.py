@@ -3,17 +3,15 @@
 from collections.abc import Sequence
 from importlib import resources
 from itertools import groupby
+from typing import Any
 
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from motionese import __version__
-from motionese.analysis import page_tables, run_tables
-from motionese.analysis.answer import QUESTION, answer, main_claims
-from motionese.analysis.claims import CONVERGED_CM, SAME
+from motionese.analysis import mochizuki2013, page_tables
 from motionese.analysis.collected import Collected
-from motionese.analysis.departures import departures
 from motionese.analysis.facts import flat
 from motionese.analysis.figures import Shown
 from motionese.analysis.map_numbers import warnings
@@ -25,6 +23,7 @@ def page(
     collected: Collected,
     measures: Measures,
     numbers: pd.DataFrame,
+    effects: pd.DataFrame,
     results: Sequence[Judgement],
     figures: Sequence[Shown],
     too_few: str,
@@ -33,44 +32,75 @@ def page(
 
     Args:
         collected: The runs.
-        measures: What the claims are about.
+        measures: What is compared.
         numbers: A row per condition and seed on its map.
-        results: The judged claims.
+        effects: A row per effect of a factor, or of two, on a measure.
+        results: The paper's judged claims; none for a study of another design.
         figures: The figures, in the order they are shown.
         too_few: Why tests could not be made, or "".
     """
-    facts = collected.facts
+    facts, warned = collected.facts, warnings(numbers, collected.study)
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                               lstrip_blocks=True)  # fmt: skip
     return environment.from_string(_part("report.html.jinja")).render(
         style=Markup(_part("report.css")),
-        question=QUESTION,
         name=collected.folder.resolve().name,
         version=__version__,
-        answer=answer(measures, numbers),
-        main_claims=main_claims(results),
+        **_of_the_paper(measures, results, warned) if results else _of_any(collected, measures),
         too_few=too_few,
-        claims=page_tables.claims_rows(claims_table(list(results))),
-        main=[each.claim.main for each in results],
-        definitions={"converged": CONVERGED_CM, "same": SAME, "loops": LAST_LOOPS},
-        errors=page_tables.errors_table(measures, collected.triples),
-        map=page_tables.map_table(numbers, collected.conditions),
-        warnings=warnings(numbers),
-        buttons=run_tables.buttons_table(collected),
-        runs=run_tables.runs_table(collected.runs),
-        failures=run_tables.failures_table(collected.runs),
-        settings=list(flat(facts.settings.model_dump(mode="json"))),
-        settings_told=facts.told,
+        last_loops=LAST_LOOPS,
+        effects=page_tables.effects_rows(effects),
+        errors=page_tables.errors_table(measures, collected),
+        map=page_tables.map_table(numbers, collected),
+        warnings=warned,
+        success=page_tables.success_table(collected),
+        runs=page_tables.runs_table(collected.runs),
+        failures=page_tables.failures_table(collected.runs),
+        settings=list(flat(facts.study.model_dump(mode="json"))),
         record=list(flat(facts.record)),
         environment=list(flat(facts.environment)),
-        departures=[
-            (heading, list(each)) for heading, each in groupby(departures(), lambda d: d.heading)
-        ],
+        tables=["loops", *collected.novel, "slow_state_map", "map_numbers", "development",
+                "effects", *(["claims"] if results else []), "runs"],
         figures={
             section: [(f.name, f.caption, Markup(f.drawing.inline)) for f in each]
             for section, each in _by_section(figures).items()
         },
-    )
+    )  # fmt: skip
+
+
+def _of_the_paper(
+    measures: Measures, results: Sequence[Judgement], warned: list[str]
+) -> dict[str, Any]:
+    """Return what the page says of a study of the paper's design."""
+    return {
+        "question": mochizuki2013.QUESTION,
+        "answer": [mochizuki2013.answer(measures), *warned],
+        "main_claims": [(each.claim.text, each.verdict) for each in results if each.claim.main],
+        "claims": page_tables.claims_rows(claims_table(list(results))),
+        "main": [each.claim.main for each in results],
+        "definitions": {"converged": mochizuki2013.CONVERGED_CM, "same": mochizuki2013.SAME},
+        "departures": [
+            (heading, list(each))
+            for heading, each in groupby(mochizuki2013.departures(), lambda d: d.heading)
+        ],
+    }
+
+
+def _of_any(collected: Collected, measures: Measures) -> dict[str, Any]:
+    """Return what the page says of a study of another design."""
+    last = measures.last_error.median().dropna().sort_values()
+    told = ", ".join(f"{error:.1f} cm in {name}" for name, error in last.items())
+    return {
+        "question": f"What was learned of {collected.task.title}?",
+        "answer": [
+            f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
+        ],
+        "main_claims": [],
+        "claims": None,
+        "main": [],
+        "definitions": {},
+        "departures": [],
+    }
 
 
 def _by_section(figures: Sequence[Shown]) -> dict[str, list[Shown]]:

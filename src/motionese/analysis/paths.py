@@ -1,4 +1,4 @@
-"""Where the hand went, against what was shown: every new motion of one run a condition."""
+"""Where the hand went, against what was shown: every new sequence of one run a condition."""
 
 from collections.abc import Mapping
 
@@ -8,35 +8,34 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy import ndarray
 
-from motionese.analysis.style import FAINT, INK, LOOKS, WIDTH
-from motionese.caregiver import BUTTONS, Demonstrating
-from motionese.experiment.conditions import Condition
+from motionese.analysis.collected import Collected
+from motionese.figure_style import FAINT, INK, WIDTH
+from motionese.task import Task
 
 CAP_RADIUS_CM = 3.5
 """Radius of a button's cap [cm]."""
 
 
-def paths(
-    kept: Mapping[Condition, Mapping[str, ndarray]], motions: list[str], manner: Demonstrating
-) -> Figure:
+def paths(kept: Mapping[str, Mapping[str, ndarray]], collected: Collected) -> Figure:
     """Draw shown and performed paths as the robot sees them, its right on the right.
 
     Args:
         kept: What was kept of the shown run of each condition.
-        motions: The motions' names, a column each.
-        manner: Where the corners are.
+        collected: The runs, for the task and how conditions look.
     """
+    task = collected.task
+    motions = [s.name for name in task.novel for s in task.lesson(name)]
     figure = Figure(figsize=(WIDTH, 0.7 + 1.22 * len(kept)))
     panels = figure.subplots(len(kept), len(motions), sharex=True, sharey=True, squeeze=False)
     for row, (condition, arrays) in zip(panels, kept.items(), strict=True):
         for axes, motion in zip(row, motions, strict=True):
-            _buttons(axes, manner)
+            _places(axes, task)
             if f"shown.{motion}" in arrays:
                 _draw(axes, arrays[f"shown.{motion}"], arrays[f"performed.{motion}"],
-                      LOOKS[condition.name].colour)  # fmt: skip
+                      collected.looks[condition].colour)  # fmt: skip
             axes.set_aspect("equal")
             axes.tick_params(labelsize=7.5, length=2)
-        row[0].set_ylabel(f"{condition.name}\nheight [cm]")
+        row[0].set_ylabel(f"{condition}\nheight [cm]")
     for axes, motion in zip(panels[0], motions, strict=True):
         axes.set_title(motion, loc="center")
     figure.supxlabel("to the robot's right [cm]", fontsize=9.5)
@@ -52,9 +51,10 @@ def _draw(
     axes.plot(right[0], up[0], marker="o", color=INK, markersize=3.5)
 
 
-def _buttons(axes: Axes, manner: Demonstrating) -> None:
-    for corner in BUTTONS:
-        right, up = _in_front(manner.corner(corner)[None])
+def _places(axes: Axes, task: Task) -> None:
+    """Mark the places where something is to be brought about by a bar, as wide as a cap."""
+    for place in dict.fromkeys(p.end for p in task.primitives if p.effect):
+        right, up = _in_front(task.position(place)[None])
         axes.plot([right[0] - CAP_RADIUS_CM, right[0] + CAP_RADIUS_CM], [up[0], up[0]],
                   color=INK, linewidth=1.2)  # fmt: skip
 

@@ -4,19 +4,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import pandas as pd
-
-from motionese.analysis.claims import claims
-from motionese.analysis.collected import Collected, collect
-from motionese.analysis.directions import true_strokes
+from motionese.analysis.cells import listed
+from motionese.analysis.collected import collect
+from motionese.analysis.effects import effects
 from motionese.analysis.figures import Shown, figures
-from motionese.analysis.map_numbers import listed, map_numbers
+from motionese.analysis.map_numbers import map_numbers
 from motionese.analysis.measures import Measures, measured
+from motionese.analysis.mochizuki2013 import claims, has_its_design
 from motionese.analysis.page import page
 from motionese.analysis.statistics import check_seeds
-from motionese.analysis.verdicts import Judgement, claims_table, judge
+from motionese.analysis.verdicts import claims_table, judge
 from motionese.errors import RunFolderError, TooFewSeedsError
-from motionese.experiment.conditions import Condition
 from motionese.experiment.run_folder import REPORT
 from motionese.files import write_whole
 
@@ -55,21 +53,33 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     collected = collect(run_folder)
     ended = int((collected.runs["status"] != "unfinished").sum())
     tell(f"{ended} of {len(collected.runs)} runs have ended")
-    settings = collected.facts.settings
-    strokes = true_strokes(settings.caregiver)
-    numbers = map_numbers(collected.slow_state_map, collected.development, strokes)
-    measures = measured(collected.loops, collected.triples, numbers, settings.phases)
-    results = [judge(claim) for claim in claims(measures)]
+    study = collected.study
+    numbers = map_numbers(collected.slow_state_map, collected.development, study, collected.strokes)
+    measures = measured(collected, numbers)
+    found = effects(measures, study.factors)
+    results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
+    tables = {
+        "loops": collected.loops,
+        "development": collected.development,
+        **collected.novel,
+        "slow_state_map": collected.slow_state_map,
+        "map_numbers": numbers,
+        "runs": collected.runs,
+        "effects": found,
+        **({"claims": claims_table(results)} if results else {}),
+    }
     try:
-        _write_tables(collected, numbers, results)
+        for name, table in tables.items():
+            text = table.to_csv(index=False, lineterminator="\n")
+            write_whole(run_folder / f"{name}.csv", text)
         drawn = []
         for each in figures(collected, measures):
             tell(f"figure {each.name}")
             _write_figure(run_folder / "figures", each)
             drawn.append(each)
-        too_few = _too_few(measures, collected.conditions)
+        too_few = _too_few(measures, list(collected.looks))
         path = run_folder / REPORT
-        write_whole(path, page(collected, measures, numbers, results, drawn, too_few))
+        write_whole(path, page(collected, measures, numbers, found, results, drawn, too_few))
     except OSError as error:
         raise RunFolderError(
             f"{error.filename or run_folder} cannot be written: {error.strerror}"
@@ -78,30 +88,14 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     return Report(path, ended, too_few)
 
 
-def _write_tables(collected: Collected, numbers: pd.DataFrame, results: list[Judgement]) -> None:
-    tables = {
-        "loops": collected.loops,
-        "development": collected.development,
-        "triples": collected.triples,
-        "slow_state_map": collected.slow_state_map,
-        "map_numbers": numbers,
-        "runs": collected.runs,
-        "claims": claims_table(results),
-    }
-    for name, table in tables.items():
-        text = table.to_csv(index=False, lineterminator="\n")
-        write_whole(collected.folder / f"{name}.csv", text)
-
-
 def _write_figure(folder: Path, shown: Shown) -> None:
     folder.mkdir(exist_ok=True)
     write_whole(folder / f"{shown.name}.svg", shown.drawing.svg)
     write_whole(folder / f"{shown.name}.png", shown.drawing.png)
 
 
-def _too_few(measures: Measures, conditions: Sequence[Condition]) -> str:
+def _too_few(measures: Measures, names: Sequence[str]) -> str:
     """Return why the conditions that were run cannot be tested, or ""."""
-    names = [c.name for c in conditions]
     common = measures.last_error[names].dropna()
     try:
         check_seeds(len(common), f"with an ended run in {listed(names)}")

@@ -21,10 +21,10 @@ from motionese.errors import RunFolderError
 from motionese.experiment.run import ENDED, Run
 
 ENDINGS = ("finished", "diverged")
-WHOLE_NUMBERS = ("seed", "loop", "phase", "levels", "buttons_due", "buttons_pressed")
+WHOLE_NUMBERS = ("seed", "loop", "phase", "levels")
+KEPT = ("activity", "commanded", "sensed", "begins", "poses")
+"""What `inside.npz` holds beside paths and effects."""
 WORDS = ("condition", "motion", "primitive", "status")
-KEPT = ("activity", "commanded", "sensed", "depths", "poses")
-"""What `inside.npz` holds beside the paths."""
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 

@@ -1,23 +1,21 @@
-"""How all figures look, and how they become SVG and PNG with the same bytes every time.
+"""How the figures of a report look.
 
-A condition has the same colour, line and marker in every figure: blue for teaching in phases,
-orange for sequences from the start; dark and solid for a growing network, light and dashed for a
-whole one (Okabe & Ito's palette, distinguishable without colour vision).
+A condition has the same colour, line and marker in every figure (see `looks_of`): blue for teaching
+in phases, orange for sequences from the start; dark and solid for a growing network, light and
+dashed for a whole one (after Okabe & Ito's palette, distinguishable without colour vision).
 """
 
-import io
-import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-INK, FAINT, PAPER = "#1b1f24", "#808890", "#ffffff"
+from motionese.experiment import conditions_of
+from motionese.figure_style import HUES, PAPER
+
 ASTRAY = "#cc79a7"
-WIDTH = 9.6
-"""Width of a figure [inch]: the page's column."""
 
 
 @dataclass(frozen=True)
@@ -39,51 +37,27 @@ class Look:
         }
 
 
-LOOKS = {
-    "TD/MD": Look("#0072b2", "-", "o"),
-    "TD/MND": Look("#56b4e9", "--", "s"),
-    "TND/MD": Look("#d55e00", "-", "^"),
-    "TND/MND": Look("#e69f00", "--", "D"),
-}
-"""By the condition's name."""
+GREYS = ("#1b1f24", "#808890")
+LINES = ("-", "--", ":", "-.")
+MARKERS = "os^DvPX*"
 
-ROLES = {
-    "ink": INK,
-    "faint": FAINT,
-    "paper": PAPER,
-    **{name.lower().replace("/", "-"): look.colour for name, look in LOOKS.items()},
-}
-"""Names by which a page may give these colours others, as on dark ground."""
 
-SETTINGS = {
-    "font.family": "DejaVu Sans",
-    "font.size": 9.5,
-    "axes.titlesize": 10,
-    "axes.titlelocation": "left",
-    "axes.labelsize": 9.5,
-    "legend.fontsize": 9,
-    "legend.frameon": False,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "axes.facecolor": "none",
-    "axes.grid": False,
-    "grid.color": FAINT,
-    "grid.alpha": 0.25,
-    "grid.linewidth": 0.6,
-    "xtick.color": FAINT,
-    "ytick.color": FAINT,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "text.color": INK,
-    "lines.linewidth": 1.8,
-    "lines.markersize": 4.5,
-    "figure.facecolor": PAPER,
-    "figure.constrained_layout.use": True,
-    "svg.fonttype": "none",
-    "path.simplify": False,
-}
+def looks_of(factors: Mapping[str, tuple[str, ...]]) -> dict[str, Look]:
+    """Return the look of every condition of a study, by its name.
+
+    The first factor's choice sets the hue, the others' the shade and the line, the first of them
+    dark and solid: the same condition looks the same in every figure, whichever others were run.
+    """
+    looks = {}
+    first = next(iter(factors.values()))
+    for place, condition in enumerate(conditions_of(factors)):
+        hue = first.index(condition.choices[0])
+        within = place % (len(conditions_of(factors)) // len(first))
+        shades = HUES[hue] if hue < len(HUES) else GREYS
+        looks[condition.name] = Look(
+            shades[min(within, 1)], LINES[within % len(LINES)], MARKERS[place % len(MARKERS)]
+        )
+    return looks
 
 
 @dataclass(frozen=True)
@@ -94,49 +68,6 @@ class Sketch:
     section: str
     caption: str
     figure: Figure
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """A finished figure: as SVG, as PNG, and as SVG to be put into a page."""
-
-    svg: str
-    png: bytes
-
-    @property
-    def inline(self) -> str:
-        """The SVG for a page: its colours and font are the page's."""
-        text = self.svg[self.svg.index("<svg") :]
-        text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-        text = re.sub(r'<g id="[^"]*"', "<g", text)
-        text = re.sub(r"'DejaVu Sans'[^;\"]*", "var(--sans)", text)
-        text = re.sub(r'^<svg ([^>]*?)width="[^"]*"', r"<svg \1", text, count=1)
-        text = re.sub(r'^<svg ([^>]*?)height="[^"]*"', r"<svg \1", text, count=1)
-        for role, colour in ROLES.items():
-            text = text.replace(colour, f"var(--{role})")
-        return text
-
-
-def finished(figure: Figure, name: str) -> Drawing:
-    """Turn a figure into files, without a date or a version in them."""
-    svg, png = io.StringIO(), io.BytesIO()
-    with rc_context({"svg.hashsalt": "motionese"}):
-        figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": None})
-    figure.savefig(png, format="png", dpi=150, metadata={"Software": None})
-    return Drawing(_settled(svg.getvalue(), name), png.getvalue())
-
-
-def _settled(svg: str, name: str) -> str:
-    """Return an SVG without what the last bits of a layout change: long decimals, hashed names.
-
-    Names are numbered and begin with the figure's, so that no two figures of a page share one.
-    """
-    svg = re.sub(r"-?\d+\.\d{4,}", lambda m: f"{float(m[0]):.3f}".rstrip("0").rstrip("."), svg)
-    svg = re.sub(r"(?<![\w.])-0(?![\d.])", "0", svg)
-    used = dict.fromkeys(re.findall(r"#([\w-]+)(?=[\")])", svg))
-    named = set(re.findall(r'\bid="([^"]+)"', svg))
-    numbered = {old: f"{name}-{i}" for i, old in enumerate(old for old in used if old in named)}
-    return re.sub(r'(\bid="|#)([\w-]+)(?=[")])', lambda m: m[1] + numbered.get(m[2], m[2]), svg)
 
 
 def light_grid(axes: Axes) -> None:

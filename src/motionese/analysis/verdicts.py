@@ -12,11 +12,27 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from motionese.analysis.claims import Claim, Part
 from motionese.analysis.statistics import Contrast, contrast, verdict
 from motionese.errors import TooFewSeedsError
 
 COLUMNS = ["claim", "measured", "statistic", "low", "high", "p", "effect", "seeds", "verdict"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """What is measured, and its difference by seed, positive where it speaks for the claim."""
+
+    measured: str
+    differences: "pd.Series[float]"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim in plain words; `main` marks those of a paper itself."""
+
+    text: str
+    parts: tuple[Part, ...]
+    main: bool = False
 
 
 @dataclass(frozen=True)

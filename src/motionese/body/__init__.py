@@ -1,47 +1,75 @@
-"""The simulated robot: pneumatic arm, neck, eye and buttons in MuJoCo, and the body protocol."""
+"""Simulated robots, and what any robot must offer.
 
-from motionese.errors import RenderingError
+A robot is a folder of this room and a row of `BODIES`: its settings, and its class.
+"""
+
+from motionese.errors import RenderingError, SettingError, needs
 
 try:
-    import mujoco  # noqa: F401
+    import mujoco
 except AttributeError as fault:
     # MUJOCO_GL names a GL library that this machine lacks: MuJoCo itself then fails to import.
     raise RenderingError(
         "MuJoCo cannot load the GL library that the environment variable MUJOCO_GL asks for; "
         "unset it, or install libegl1 and libgl1 (Debian, Ubuntu)"
     ) from fault
+except ModuleNotFoundError as fault:
+    raise needs("mujoco-core", "experiment", "a simulated robot") from fault
 
-from motionese.body.actroid import CHANNELS, PRESSED_MM, Actroid
-from motionese.body.arm import COMMAND_RANGE
-from motionese.body.film import pictures
-from motionese.body.gaze import EYE_POSITION, bearing
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from motionese.body.actroid import Actroid, ActroidSettings
+from motionese.body.desk_arm import DeskArm, DeskArmSettings
 from motionese.body.geometry import Geometry
-from motionese.body.protocol import Body
-from motionese.body.reach import (
-    CORNER_POSTURES,
-    CORNERS,
-    arm_reaching,
-    marker_at,
-    on_reach,
-    projected,
-)
-from motionese.body.settings import BodySettings
+from motionese.body.pictures import pictures
+from motionese.body.protocol import Robot, SimulatedRobot
+from motionese.body.settings import SimulationSettings
+from motionese.body.tabletop_robot import TabletopRobot
+from motionese.task import Task
+
+BodySettings = Annotated[ActroidSettings | DeskArmSettings, Field(discriminator="name")]
+"""The settings of any simulated robot; their `name` says of which."""
+
+BODIES: dict[str, tuple[type[SimulationSettings], type[TabletopRobot[Any]]]] = {
+    "actroid": (ActroidSettings, Actroid),
+    "desk_arm": (DeskArmSettings, DeskArm),
+}
+"""Every simulated robot by its name in settings: its settings and its class."""
+
+
+def open_body(settings: BodySettings, task: Task) -> SimulatedRobot:
+    """Return a robot at a task.
+
+    Raises:
+        SettingError: The robot commands joints that it does not sense.
+        RenderingError: Rendered pictures are asked for, and this machine renders none.
+    """
+    _, robot = BODIES[settings.name]
+    missing = [joint for joint in robot.joints if joint not in robot.channels.names]
+    if missing:
+        raise SettingError(
+            f"body {settings.name} commands {', '.join(missing)}, which it does not sense: the "
+            f"joints must be among its channels, which are {', '.join(robot.channels.names)}"
+        )
+    return robot(settings, task)
+
+
+def load_model(settings: BodySettings, task: Task) -> mujoco.MjModel:
+    """Return the MuJoCo model of a robot at a task, for pictures and shapes without a trial."""
+    return BODIES[settings.name][1].load_model(settings, task)
+
 
 __all__ = [
-    "CHANNELS",
-    "COMMAND_RANGE",
-    "CORNERS",
-    "CORNER_POSTURES",
-    "EYE_POSITION",
-    "PRESSED_MM",
-    "Actroid",
-    "Body",
+    "BODIES",
     "BodySettings",
     "Geometry",
-    "arm_reaching",
-    "bearing",
-    "marker_at",
-    "on_reach",
+    "Robot",
+    "SimulatedRobot",
+    "SimulationSettings",
+    "TabletopRobot",
+    "load_model",
+    "open_body",
     "pictures",
-    "projected",
 ]

@@ -1,5 +1,6 @@
 """Where the eye sees a marker: from the exact projection, or from the pixels of a picture."""
 
+import math
 from typing import Protocol, runtime_checkable
 
 import mujoco
@@ -7,16 +8,17 @@ import numpy as np
 from jaxtyping import Float, UInt8
 from numpy import ndarray
 
-from motionese.body.gaze import IMAGE_SIZE, Hand
+from motionese.body.composition import MARKERS, Hand
 from motionese.body.rendering import open_renderer
-from motionese.body.settings import BodySettings
+from motionese.body.settings import SimulationSettings
 from motionese.errors import RenderingError
 
+IMAGE_SIZE = (128, 96)
+"""Width and height of the eye's picture [px]."""
 HEAD_GROUP = 2
 """Geoms of this group surround the eye and are left out of its pictures."""
 REDNESS = 90
 """How far red must exceed green and blue [of 255] in a pixel of the marker."""
-
 
 _MIDDLE = np.array(IMAGE_SIZE) / 2
 """The view's middle [px], counted from the picture's upper left edge, as MuJoCo projects."""
@@ -31,7 +33,10 @@ class Eye(Protocol):
     def see(
         self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator
     ) -> Float[ndarray, "2"]:
-        """Return (u, v) [px from the view's middle; right, down] of a hand last seen at `last`."""
+        """Return (u, v) [px from the view's middle; right, down] of a hand last seen at `last`.
+
+        Both are NaN where the hand is not seen.
+        """
         ...
 
 
@@ -40,9 +45,7 @@ class ProjectedEye:
 
     def __init__(self, model: mujoco.MjModel, noise_px: float) -> None:
         self._noise_px = noise_px
-        self._adr = {
-            hand: int(model.sensor(f"{hand}_in_view").adr[0]) for hand in ("own", "caregiver")
-        }
+        self._adr = {hand: int(model.sensor(f"{hand}_in_view").adr[0]) for hand in MARKERS}
 
     def see(
         self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator
@@ -54,7 +57,7 @@ class ProjectedEye:
 
 
 class RenderedEye:
-    """The red blob nearest to where the marker was last seen; nothing red in view: seen as last."""
+    """The red blob nearest to where the marker was last seen; NaN while nothing red is in view."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         try:
@@ -87,12 +90,17 @@ class RenderedEye:
         _, blobs = self._cv2.threshold(redness, REDNESS, 255, self._cv2.THRESH_BINARY)
         count, _, _, middles = self._cv2.connectedComponentsWithStats(blobs)
         if count < 2:
-            return last
+            return np.full(2, np.nan)
         seen = np.array(middles[1:]) - _MIDDLE_PIXEL
         return np.array(seen[np.argmin(np.linalg.norm(seen - last, axis=-1))])
 
 
-def open_eye(model: mujoco.MjModel, settings: BodySettings) -> Eye:
+def focal_px(fovy: float) -> float:
+    """Return the focal length [px] of an eye with this vertical field of view [degrees]."""
+    return IMAGE_SIZE[1] / 2 / math.tan(math.radians(fovy) / 2)
+
+
+def open_eye(model: mujoco.MjModel, settings: SimulationSettings) -> Eye:
     """Return the eye that the settings ask for; `RenderingError` where it cannot be opened."""
     if settings.vision == "rendered":
         return RenderedEye(model)

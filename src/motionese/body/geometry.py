@@ -7,8 +7,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.body.model import load_model
-from motionese.body.settings import BodySettings
+from motionese.body.composition import ROOM, TASK
 
 
 class Geometry:
@@ -20,18 +19,17 @@ class Geometry:
             `quat` in its body, and `rgba`.
     """
 
-    def __init__(self) -> None:
-        """Read the shapes from the model."""
-        self._model = load_model(BodySettings())
-        self._data = mujoco.MjData(self._model)
-        self.bodies = tuple(self._model.body(i).name for i in range(self._model.nbody))
-        self.shapes = tuple(self._shape(i) for i in range(self._model.ngeom))
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Read the shapes from a robot's model, see `load_model`."""
+        self._model, self._data = model, mujoco.MjData(model)
+        self.bodies = tuple(_plain(model.body(i).name) for i in range(model.nbody))
+        self.shapes = tuple(self._shape(i) for i in range(model.ngeom))
 
     def placed(self, poses: Float[ndarray, "T P"]) -> Float[ndarray, "T B 7"]:
         """Return position [m, world] and quaternion (w, x, y, z) of every body in kept poses.
 
         Args:
-            poses: What `Actroid.pose` returned at the wanted moments.
+            poses: What the robot's `pose` returned at the wanted moments.
         """
         model, data = self._model, self._data
         bodies = np.empty((len(poses), model.nbody, 7))
@@ -45,10 +43,10 @@ class Geometry:
         model, geom = self._model, self._model.geom(index)
         material = int(geom.matid[0])
         rgba = model.mat_rgba[material] if material >= 0 else geom.rgba
-        if material >= 0 and model.mat(material).name == "floor":
+        if material >= 0 and _plain(model.mat(material).name) == "floor":
             rgba = np.array([0.83, 0.84, 0.855, 1.0])  # the middle of its texture's two colours
         return {
-            "name": geom.name,
+            "name": _plain(geom.name),
             "body": int(geom.bodyid[0]),
             "type": mujoco.mjtGeom(int(geom.type[0])).name.removeprefix("mjGEOM_").lower(),
             "size": np.round(geom.size, 5).tolist(),
@@ -56,3 +54,8 @@ class Geometry:
             "quat": np.round(geom.quat, 6).tolist(),
             "rgba": np.round(rgba, 4).tolist(),
         }
+
+
+def _plain(name: str) -> str:
+    """Return a name without what says that the task or the room brought it along."""
+    return name.removeprefix(TASK).removeprefix(ROOM)

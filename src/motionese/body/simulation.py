@@ -1,84 +1,117 @@
-"""Robot, table, buttons and caregiver's hand in MuJoCo, from one picture of the eye to the next."""
+"""Robot, things and caregiver's hand in MuJoCo, from one picture of the eye to the next."""
+
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
 
 import mujoco
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.body.arm import PneumaticArm
-from motionese.body.gaze import Hand
-from motionese.body.model import load_model
-from motionese.body.settings import GAZE_HZ, BodySettings
+from motionese.body.composition import MARKERS, TASK, Hand
+from motionese.body.settings import PICTURES_HZ
 
-_BUTTONS_DOWN_M = -0.015
-_FREE_SHOULDER = np.radians(35.0)
+
+@runtime_checkable
+class Drive(Protocol):
+    """A robot's actuators: what they are given so that its joints go where they are told."""
+
+    def place(
+        self, data: mujoco.MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]
+    ) -> None:
+        """Put the joints at rest at these angles [rad], or above the table they would be in.
+
+        Actuators are as they would be after a long rest there.
+        """
+        ...
+
+    def press(
+        self, data: mujoco.MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]
+    ) -> None:
+        """Set the actuators for commanded joints and neck [rad], until the next picture."""
+        ...
 
 
 class Simulation:
-    """The physics and its sensors; `place` restores all of it, so that no earlier use is felt."""
+    """The physics; `place` restores all of it, so that no earlier use is felt."""
 
-    def __init__(self, settings: BodySettings) -> None:
-        self.model = load_model(settings)
-        self.data = mujoco.MjData(self.model)
-        self.substeps = round(1 / GAZE_HZ / self.model.opt.timestep)
-        self._arm = PneumaticArm(self.model, settings.stiffness)
-        model = self.model
-        self._neck_qpos = [model.joint(n).qposadr[0] for n in ("pan", "tilt")]
-        self._neck_ctrl = [model.actuator(n).id for n in ("pan", "tilt")]
-        self._neck_act = [model.actuator(n).actadr[0] for n in ("pan", "tilt")]
-        self._button_qpos = [model.joint(f"{s}_button").qposadr[0] for s in ("right", "left")]
-        self._angles = [model.sensor(n).adr[0] for n in ("shoulder", "armpit", "pan", "tilt")]
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        drive: Drive,
+        *,
+        sensed: Sequence[str],
+        effects: Sequence[str],
+    ) -> None:
+        """Open a robot's model.
+
+        Args:
+            model: Robot, things and caregiver's hand.
+            drive: The robot's actuators.
+            sensed: The joints whose angles are sensed.
+            effects: The slide joints of the task's things.
+        """
+        self.model, self.data, self._drive = model, mujoco.MjData(model), drive
+        self.substeps = round(1 / PICTURES_HZ / model.opt.timestep)
+        self._sensed = [model.joint(name).qposadr[0] for name in sensed]
+        things = [model.joint(TASK + name) for name in effects]
+        self._effects = {
+            name: joint.qposadr[0] for name, joint in zip(effects, things, strict=True)
+        }
+        self._down = [joint.range[0] for joint in things]
+        self._markers = {hand: model.site(site).id for hand, site in MARKERS.items()}
 
     def place(
-        self, arm: Float[ndarray, "2"], neck: Float[ndarray, "2"], caregiver: Float[ndarray, "3"]
+        self,
+        angles: Float[ndarray, " J"],
+        gaze: Float[ndarray, " G"],
+        caregiver: Float[ndarray, "3"],
     ) -> None:
-        """Restore everything: arm and neck at rest at these angles [rad], caregiver's marker [m].
+        """Restore everything: joints and neck at rest [rad], the caregiver's marker there [m].
 
-        The buttons rise from below the fist, and an arm that would stand in the table starts above
-        it: both come to rest as time passes.
+        What can be pushed down rises from below the hand: it comes to rest as time passes.
         """
         mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[self._button_qpos] = _BUTTONS_DOWN_M
-        self.data.qpos[self._neck_qpos] = neck
-        self.data.act[self._neck_act] = neck
+        self.data.qpos[list(self._effects.values())] = self._down
         self.data.mocap_pos[0] = caregiver
-        above = arm[0] if arm[0] > np.pi / 2 else min(arm[0], _FREE_SHOULDER)
-        self._arm.place(self.model, self.data, np.array([above, arm[1]]))
+        self._drive.place(self.data, angles, gaze)
 
     def advance(
         self,
-        command: Float[ndarray, "2"],
-        neck: Float[ndarray, "2"],
+        command: Float[ndarray, " J"],
+        gaze: Float[ndarray, " G"],
         caregiver_way: Float[ndarray, "S 3"] | None = None,
     ) -> None:
-        """Let the time between two pictures pass, under commanded arm and neck angles [rad].
+        """Let the time between two pictures pass, under commanded joints and neck [rad].
 
         The caregiver's marker rests, or goes its way [m, world], one position a physics step.
         """
         model, data = self.model, self.data
-        self._arm.press(data, command)
-        data.ctrl[self._neck_ctrl] = neck
+        self._drive.press(data, command, gaze)
         if caregiver_way is None:
             mujoco.mj_step(model, data, nstep=self.substeps)
         else:
             for position in caregiver_way:
                 data.mocap_pos[0] = position
                 mujoco.mj_step(model, data)
-        # The sensors of mj_step belong to the state before its last integration.
+        # What mj_step leaves behind belongs to the state before its last integration.
         mujoco.mj_kinematics(model, data)
         mujoco.mj_camlight(model, data)
         mujoco.mj_sensorPos(model, data)
 
     @property
-    def angles(self) -> Float[ndarray, "4"]:
-        """Sensed shoulder, armpit, pan and tilt [rad]."""
-        return np.array(self.data.sensordata[self._angles])
+    def angles(self) -> Float[ndarray, " A"]:
+        """The sensed joints' angles [rad]."""
+        return np.array(self.data.qpos[self._sensed])
 
     @property
-    def button_depths(self) -> Float[ndarray, "2"]:
-        """How deep the right and the left button are pressed [mm]."""
-        return np.array(np.maximum(0.0, -1000.0 * self.data.qpos[self._button_qpos]))
+    def effects(self) -> dict[str, float]:
+        """How deep each of the task's things is pushed down [mm]."""
+        return {
+            name: max(0.0, -1000.0 * float(self.data.qpos[adr]))
+            for name, adr in self._effects.items()
+        }
 
     def marker(self, hand: Hand) -> Float[ndarray, "3"]:
         """Return where the marker of a hand is [m, world]."""
-        return np.array(self.data.sensor(f"{hand}_marker").data)
+        return np.array(self.data.site_xpos[self._markers[hand]])

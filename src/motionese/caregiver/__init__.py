@@ -1,23 +1,40 @@
-"""The caregiver: the task, what is taught in which phase, and how a motion is shown."""
+"""The caregiver: how sequences of primitives are shown."""
 
-from motionese.caregiver.curriculum import Curriculum
-from motionese.caregiver.demonstration import (
-    Caregiver,
-    Demonstrating,
+from motionese.caregiver.demonstration import Caregiver, Demonstration
+from motionese.caregiver.recorded import (
+    DEMONSTRATIONS,
+    Recorded,
     RecordedCaregiver,
-    ScriptedCaregiver,
+    read_recorded,
+    recording_of,
 )
-from motionese.caregiver.task import BUTTONS, PUSHING_BUTTONS, Motion, Primitive, Task
+from motionese.caregiver.scripted import Manner, ScriptedCaregiver
+from motionese.caregiver.segmentation import (
+    evenly_along,
+    intended_way,
+    rows_of_places,
+    segmented,
+    sequence_in,
+    stroke_length,
+)
+from motionese.caregiver.tempo import lasting, moving
 
 __all__ = [
-    "BUTTONS",
-    "PUSHING_BUTTONS",
+    "DEMONSTRATIONS",
     "Caregiver",
-    "Curriculum",
-    "Demonstrating",
-    "Motion",
-    "Primitive",
+    "Demonstration",
+    "Manner",
+    "Recorded",
     "RecordedCaregiver",
     "ScriptedCaregiver",
-    "Task",
+    "evenly_along",
+    "intended_way",
+    "lasting",
+    "moving",
+    "read_recorded",
+    "recording_of",
+    "rows_of_places",
+    "segmented",
+    "sequence_in",
+    "stroke_length",
 ]

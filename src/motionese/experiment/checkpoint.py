@@ -2,14 +2,9 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from motionese.errors import StorageError
-from motionese.experiment.imitation_loop import Row
-from motionese.experiment.learner import Experience, Learner
-from motionese.network import read_network, write_network
+from motionese.imitation import Learner, Row, read_learner, write_learner
 
 
 @dataclass(frozen=True)
@@ -40,10 +35,10 @@ def checkpoint_path(folder: Path, loop: int) -> Path:
     return folder / f"loop-{loop:02d}.safetensors"
 
 
-def write_checkpoint(folder: Path, checkpoint: Checkpoint) -> None:
+def write_checkpoint(folder: Path, checkpoint: Checkpoint, rate_hz: float) -> None:
     """Write a checkpoint, whole or not at all."""
     facts = {name: value for name, value in vars(checkpoint).items() if name != "learner"}
-    write_learner(checkpoint_path(folder, checkpoint.loop), checkpoint.learner, facts)
+    write_learner(checkpoint_path(folder, checkpoint.loop), checkpoint.learner, rate_hz, facts)
 
 
 def read_checkpoint(path: Path, origin: str) -> Checkpoint:
@@ -65,47 +60,17 @@ def read_checkpoint(path: Path, origin: str) -> Checkpoint:
     return checkpoint
 
 
-def write_learner(path: Path, learner: Learner, facts: dict[str, Any]) -> None:
-    """Write what a robot has become, and JSON-able facts, whole or not at all."""
-    told = {
-        **facts,
-        "experiences": [{"loop": e.loop, "motion": e.motion} for e in learner.experiences],
-    }
-    arrays = {}
-    for i, experience in enumerate(learner.experiences):
-        arrays[f"values.{i}"] = experience.values
-        arrays[f"initial_state.{i}"] = np.asarray(experience.initial_state)
-    write_network(path, learner.network, arrays, told)
-
-
-def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
-    """Read what `write_learner` wrote.
+def read_checkpoints(folder: Path, origin: str) -> list[Checkpoint]:
+    """Return the checkpoints of all whole loops of a run, in order.
 
     Raises:
-        StorageError: It is cut short, or not one of ours.
+        StorageError: One is missing before the last, or cannot be read.
     """
-    network, arrays, facts = read_network(path)
-    try:
-        experiences = tuple(
-            Experience(
-                loop=each["loop"],
-                motion=each["motion"],
-                values=arrays[f"values.{i}"],
-                initial_state=arrays[f"initial_state.{i}"],
-            )
-            for i, each in enumerate(facts.pop("experiences"))
-        )
-    except (KeyError, TypeError) as error:
-        raise StorageError(f"{path}: a model, but not a checkpoint of an experiment") from error
-    for experience in experiences:
-        fits = experience.initial_state.shape == (network.size,)
-        if not (fits and np.isfinite(experience.initial_state).all()):
-            raise StorageError(f"{path}: initial states that do not fit its network")
-    return Learner(network, experiences), facts
-
-
-def latest_checkpoint(folder: Path, origin: str) -> Checkpoint | None:
-    """Return the checkpoint of a run's last whole loop, if there is one."""
-    paths = folder.glob("loop-*.safetensors")
-    latest = max(paths, key=lambda path: int(path.stem.removeprefix("loop-")), default=None)
-    return read_checkpoint(latest, origin) if latest else None
+    paths = sorted(
+        folder.glob("loop-*.safetensors"), key=lambda path: int(path.stem.removeprefix("loop-"))
+    )
+    expected = [checkpoint_path(folder, loop) for loop in range(1, len(paths) + 1)]
+    missing = [path for path in expected if path not in paths]
+    if missing:
+        raise StorageError(f"{missing[0]}: missing, though later loops are there")
+    return [read_checkpoint(path, origin) for path in paths]

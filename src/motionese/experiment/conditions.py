@@ -1,48 +1,41 @@
-"""The four conditions: teaching in phases or not (TD, TND), a growing network or not (MD, MND)."""
+"""Conditions: a choice for every factor that is varied, such as teaching (TD, TND)."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from itertools import product
 
 from motionese.errors import SettingError, unknown
-
-Teaching = Literal["TD", "TND"]
-Structuring = Literal["MD", "MND"]
 
 
 @dataclass(frozen=True)
 class Condition:
-    """One cell of the 2 × 2 design.
+    """One cell of the design.
 
     Attributes:
-        teaching: TD, primitives first and then sequences; TND, sequences from the start.
-        structuring: MD, IO–Cf first and then IO–Cf–Cs; MND, all levels from the start.
+        choices: The choice of every factor, in the factors' order, such as ('TD', 'MD').
     """
 
-    teaching: Teaching
-    structuring: Structuring
+    choices: tuple[str, ...]
 
     @property
     def name(self) -> str:
-        """The paper's name, such as 'TD/MD'."""
-        return f"{self.teaching}/{self.structuring}"
+        """How it is called, such as 'TD/MD'."""
+        return "/".join(self.choices)
 
     @property
     def folder(self) -> str:
         """The name of its folder, such as 'TD-MD'."""
-        return f"{self.teaching}-{self.structuring}"
+        return "-".join(self.choices)
 
 
-CONDITIONS = (
-    Condition("TD", "MD"),
-    Condition("TD", "MND"),
-    Condition("TND", "MD"),
-    Condition("TND", "MND"),
-)
+def conditions_of(factors: Mapping[str, tuple[str, ...]]) -> tuple[Condition, ...]:
+    """Return all conditions of a design, the first factor changing slowest."""
+    return tuple(Condition(choices) for choices in product(*factors.values()))
 
 
-def condition(name: str) -> Condition:
+def condition_named(name: str, factors: Mapping[str, tuple[str, ...]]) -> Condition:
     """Return the condition of a name; `SettingError` with the nearest one if there is none."""
-    by_name = {c.name: c for c in CONDITIONS}
-    if name.upper() not in by_name:
-        raise SettingError(unknown("condition", name, by_name))
-    return by_name[name.upper()]
+    by_name = {c.name.casefold(): c for c in conditions_of(factors)}
+    if name.casefold() not in by_name:
+        raise SettingError(unknown("condition", name, (c.name for c in by_name.values())))
+    return by_name[name.casefold()]

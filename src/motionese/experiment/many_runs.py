@@ -12,10 +12,10 @@ import dask
 from distributed import Client, Future, LocalCluster, as_completed, get_worker
 from distributed.scheduler import KilledWorker
 
-from motionese.caregiver import Caregiver
 from motionese.errors import MotioneseError, StorageError
 from motionese.experiment.run import Run, go_through
-from motionese.experiment.settings import Settings
+from motionese.experiment.study import Study
+from motionese.imitation import Recordings
 from motionese.one_core import one_core_each
 
 LOOPS = "loops"
@@ -28,10 +28,10 @@ class UnfinishedRunsError(MotioneseError):
 
 def go_through_all(
     runs: Sequence[Run],
-    settings: Settings,
+    settings: Study,
     workers: int,
     *,
-    caregiver: Caregiver | None = None,
+    recordings: Recordings | None = None,
     loop_done: Callable[[Run, int], None],
     run_ended: Callable[[Run, str], None],
 ) -> list[str]:
@@ -41,7 +41,7 @@ def go_through_all(
         runs: The runs; those that are finished cost nothing.
         settings: All settings.
         workers: How many runs at once, each in a process of its own.
-        caregiver: Who shows the motions; the scripted caregiver if left out.
+        recordings: Demonstrations that are shown in the place of scripted ones.
         loop_done: Called with a run and its last whole loop, also when it begins.
         run_ended: Called with a run and why it could not go on, or "".
 
@@ -58,7 +58,7 @@ def go_through_all(
         def begin() -> list[Future]:
             """Hand the next run to a worker, if one is left."""
             return [
-                client.submit(_go_through, run, settings, caregiver, key=run.name, pure=False)
+                client.submit(_go_through, run, settings, recordings, key=run.name, pure=False)
                 for run in islice(waiting, 1)
             ]
 
@@ -73,29 +73,29 @@ def go_through_all(
     return failures
 
 
-def longest_first(runs: Sequence[Run], settings: Settings) -> list[Run]:
+def longest_first(runs: Sequence[Run], settings: Study) -> list[Run]:
     """Return the runs that have not ended, so ordered that workers finish at about the same time.
 
     A run is longer the more loops are left, and among those of one seed the longer its lessons.
     """
 
     def key(run: Run) -> tuple[int, int, int]:
-        lessons = settings.lessons(run.condition.teaching)
-        primitives = sum(len(motion.primitives) for lesson in lessons for motion in lesson)
+        stages = settings.development(run.condition)
+        primitives = sum(len(sequence.primitives) for each in stages for sequence in each.lesson)
         return run.loops_done(), run.seed, -primitives
 
     return sorted((run for run in runs if not run.ended()), key=key)
 
 
-def _go_through(run: Run, settings: Settings, caregiver: Caregiver | None) -> str:
+def _go_through(run: Run, settings: Study, recordings: Recordings | None) -> str:
     """Do a run in a worker; return why it cannot go on, or ""."""
 
-    def told(loop: int) -> None:
+    def loop_done(loop: int) -> None:
         get_worker().log_event(LOOPS, (run.name, loop))
 
-    told(run.loops_done())
+    loop_done(run.loops_done())
     try:
-        go_through(run, settings, told, caregiver)
+        go_through(run, settings, loop_done, recordings)
     except StorageError as error:
         return (
             f"{error}; remove it and the checkpoints of later loops, and the same command goes on "

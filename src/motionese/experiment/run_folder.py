@@ -17,12 +17,12 @@ from filelock import FileLock, Timeout
 from motionese.errors import RunFolderError
 from motionese.experiment.conditions import Condition
 from motionese.experiment.environment import environment
-from motionese.experiment.reading import differences
+from motionese.experiment.presets import differences
 from motionese.experiment.run import Run
-from motionese.experiment.settings import Settings
+from motionese.experiment.study import Study
 from motionese.files import write_whole
 
-FORMAT, VERSION = "motionese-run", 1
+FORMAT, VERSION = "motionese-run", 2
 SETTINGS, ENVIRONMENT = "settings.json", "environment.json"
 LOCK, HOLDER = ".lock", ".lock-holder"
 REPORT = "report.html"
@@ -52,7 +52,7 @@ class RunFolder:
 
 @contextmanager
 def open_run_folder(
-    path: Path, settings: Settings, preset: str, shown: str = ""
+    path: Path, settings: Study, preset: str, shown: str = ""
 ) -> Iterator[RunFolder]:
     """Make a run folder, or go on with one that has the same settings; others are kept out.
 
@@ -76,7 +76,7 @@ def open_run_folder(
         yield folder
 
 
-def _begun(path: Path, settings: Settings, preset: str, shown: str) -> RunFolder:
+def _begun(path: Path, settings: Study, preset: str, shown: str) -> RunFolder:
     """Write what stands beside the runs, or check that it is the same."""
     now = settings.model_dump(mode="json")
     if (path / SETTINGS).exists():
@@ -105,7 +105,7 @@ def run_settings(path: Path) -> Facts:
     if facts.get("version") != VERSION:
         raise RunFolderError(
             f"{path}: run folder of format {facts.get('version')}, this version of motionese "
-            f"reads {VERSION}; install a newer one"
+            f"reads {VERSION}; read it with the version that wrote it, or run it again"
         )
     if not isinstance(facts.get("settings"), dict):
         raise RunFolderError(f"{path / SETTINGS} holds no settings; it was changed by hand")

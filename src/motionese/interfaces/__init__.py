@@ -1,1 +1,1 @@
-"""How people and other programs use the package: the command line."""
+"""How people and other programs use the package: command line, page, logs, ONNX, estimator."""

@@ -11,7 +11,7 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import SettingError, needs
-from motionese.interfaces.level_text import read_levels
+from motionese.interfaces.commands.train import read_levels
 from motionese.learning import (
     Fit,
     Found,

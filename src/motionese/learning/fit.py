@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import SettingError, unknown
+from motionese.errors import NO_MOTION, SettingError, unknown
 from motionese.learning.accuracy import share_of_range
 from motionese.learning.status import Status
 from motionese.network import MTRNN
@@ -49,6 +49,8 @@ class Fit:
 
     def index(self, name: str) -> int:
         """Return which motion has this name; `SettingError` if none has."""
+        if not self.names:
+            raise SettingError(NO_MOTION)
         if name not in self.names:
             raise SettingError(unknown("motion", name, self.names))
         return self.names.index(name)

@@ -26,12 +26,12 @@ def generate(
         initial_state: u_0 of all levels, of one motion or of a batch.
         steps: Rows T of the result.
         first: What is sensed at the first row, in the channels' units: the network's first
-            input. Its own y_0 where left out.
+            input. Its own y_0 where left out, and for channels that are NaN.
         duration: How many times as long a motion lasts (0.5 to 2), through the time constants;
             its rows become more or fewer by as much.
 
     Returns:
-        The path in the channels' units. Row 0 is y_0, or `first`.
+        The path in the channels' units. Row 0 is `first`, and y_0 where that is not given.
     """
     lasting = network if duration == 1.0 else network.lasting(duration)
     paths, _ = _closed_loop(lasting, initial_state, steps, first)
@@ -70,13 +70,15 @@ def _closed_loop(
     sensed = np.full((len(flat), steps, network.io_size), 0.5)
     share = np.zeros_like(sensed)
     if first is not None:
-        sensed[:, 0] = channels.to_unit(np.asarray(first)).reshape(-1, network.io_size)
-        share[:, 0] = 1.0
+        row = channels.to_unit(np.asarray(first)).reshape(-1, network.io_size)
+        share[:, 0] = given = np.isfinite(row)
+        sensed[:, 0] = np.where(given, row, 0.5)
     outputs = np.asarray(
         _outputs(network, flat, jnp.asarray(sensed, flat.dtype), jnp.asarray(share, flat.dtype))
     ).copy()
     if first is not None:
-        outputs[:, 0, : network.io_size] = sensed[:, 0]
+        io = outputs[:, 0, : network.io_size]
+        io[:] = np.where(given, sensed[:, 0], io)
     outputs = outputs.reshape(*start.shape[:-1], steps, network.size)
     return channels.from_unit(outputs[..., : network.io_size]), outputs
 

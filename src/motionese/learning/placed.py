@@ -16,7 +16,8 @@ def placed(
     """Return initial states of motions that begin where the robot is.
 
     The IO units of the channels that are given start from the logit of what is sensed, as in
-    training; context units keep the motion.
+    training; context units keep the motion. Those of a network whose `initial_io` is "zero" stay
+    at 0: it takes up where the robot is as its first input alone, `first` of `generate`.
 
     Args:
         network: A network that carries channels.

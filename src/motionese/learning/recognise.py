@@ -116,7 +116,7 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    memory = recalled(model, batch) if isinstance(model, Fit) else None
+    memory = recalled(model, batch) if isinstance(model, Fit) and model.names else None
     if starts is None and memory is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     free = _starts(network, count, starts, memory, settings, key)

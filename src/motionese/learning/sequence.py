@@ -72,11 +72,25 @@ def generate_sequence(
             apart = np.abs(own[0] - passing[0])
             over, former = transition_rows(apart, _speed(former, own), rows // 2), own
         left = dict(zip(names, passing[0], strict=True))
-        path = generate(network, placed(network, state, left), rows + longest, duration=duration)
+        path = _from_here(network, state, left, rows + longest, duration)
         weight = _weight(over)
         path[:over] = (1 - weight) * passing[:over] + weight * path[:over]
         whole = np.concatenate([before, path])
     return whole[:-longest]
+
+
+def _from_here(
+    network: MTRNN,
+    state: Float[ndarray, " N"],
+    here: Mapping[str, float],
+    rows: int,
+    duration: float,
+) -> Float[ndarray, "T D"]:
+    """Generate a motion that begins where the robot is: this is its first input, as in training."""
+    there = placed(network, state, here)
+    assert network.channels is not None, "placed refuses a network without channels"
+    first = np.array([here.get(name, np.nan) for name in network.channels.names])
+    return generate(network, there, rows, first=first, duration=duration)
 
 
 def _set_out(
@@ -89,7 +103,7 @@ def _set_out(
     duration: float,
 ) -> Float[ndarray, "T D"]:
     """Return a motion that begins by standing still here, instead of its own path."""
-    path = generate(network, placed(network, state, here), len(own), duration=duration)
+    path = _from_here(network, state, here, len(own), duration)
     standing, over = path[0].copy(), blend
     if network.channels is not None:
         standing[network.channels.indices(here)] = list(here.values())

@@ -1,14 +1,14 @@
-"""A fit on disk: the network, the initial states it learned, and how training ended."""
+"""A fit on disk: the network, the initial states it learned, how training ended, and more."""
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy import ndarray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import StorageError, unknown
+from motionese.errors import CHECKPOINT_BEFORE, StorageError, unknown
 from motionese.learning.fit import Fit
 from motionese.learning.status import Ending, Status
 from motionese.network import MTRNN, read_network, write_network
@@ -21,6 +21,8 @@ ARRAYS = (
     "closed_loop_error",
     "validation_error",
 )
+FURTHER = "further"
+"""The fact, and the beginning of the arrays' names, that hold what is written with a fit."""
 
 
 class _Facts(BaseModel):
@@ -34,11 +36,34 @@ class _Facts(BaseModel):
     validation_names: tuple[str, ...]
     status: str
     sentence: str
+    further: dict[str, Any] = {}
 
 
 def save(path: str | Path, fit: Fit) -> None:
     """Write a fit to one safetensors file, whole or not at all."""
-    facts = {
+    write_fit(path, fit, {}, {})
+
+
+def load(path: str | Path) -> Fit:
+    """Read what `save` or `write_fit` wrote; `StorageError` if it is not a fit, or cut short."""
+    return read_fit(path)[0]
+
+
+def write_fit(
+    path: str | Path, fit: Fit, arrays: Mapping[str, ndarray], facts: Mapping[str, Any]
+) -> None:
+    """Write a fit and what belongs to it to one safetensors file, whole or not at all.
+
+    Whatever reads a fit reads such a file. A fit of no motions can be written: the network of a
+    robot that has not learned any yet.
+
+    Args:
+        path: The file.
+        fit: The fit.
+        arrays: Further arrays, by names of their own.
+        facts: Further facts, as JSON can hold them, by names of their own.
+    """
+    own = {
         "names": list(fit.names),
         "lengths": list(fit.lengths),
         "rate_hz": fit.rate_hz,
@@ -46,15 +71,25 @@ def save(path: str | Path, fit: Fit) -> None:
         "status": fit.status.ending.value,
         "sentence": fit.status.sentence,
     }
-    arrays = {name: np.asarray(getattr(fit, name)) for name in ARRAYS}
-    write_network(Path(path), fit.network, arrays, facts)
+    tensors = {name: np.asarray(getattr(fit, name)) for name in ARRAYS}
+    tensors |= {f"{FURTHER}.{name}": value for name, value in arrays.items()}
+    write_network(Path(path), fit.network, tensors, {**own, FURTHER: dict(facts)} if facts else own)
 
 
-def load(path: str | Path) -> Fit:
-    """Read what `save` wrote; `StorageError` if the file is not a fit, or cut short."""
+def read_fit(path: str | Path) -> tuple[Fit, dict[str, ndarray], dict[str, Any]]:
+    """Read what `write_fit` wrote.
+
+    Returns:
+        The fit, the further arrays, the further facts.
+
+    Raises:
+        StorageError: The file is not a fit, or cut short.
+    """
     network, arrays, told = read_network(Path(path))
+    if "experiences" in told and "names" not in told:
+        raise StorageError(f"{path}: {CHECKPOINT_BEFORE}")
     missing = [name for name in ARRAYS if name not in arrays]
-    missing += [name for name in _Facts.model_fields if name not in told]
+    missing += [n for n, f in _Facts.model_fields.items() if f.is_required() and n not in told]
     missing += ["channels"] if network.channels is None else []
     if missing:
         raise StorageError(f"{path}: a network without a fit; {', '.join(missing)} missing")
@@ -67,7 +102,7 @@ def load(path: str | Path) -> Fit:
     if facts.status not in endings:
         raise StorageError(f"{path}: {unknown('status', facts.status, endings)}")
     _check_shapes(Path(path), network, arrays, facts)
-    return Fit(
+    fit = Fit(
         network=network,
         names=facts.names,
         lengths=facts.lengths,
@@ -76,6 +111,9 @@ def load(path: str | Path) -> Fit:
         status=Status(Ending(facts.status), facts.sentence),
         **{name: arrays[name] for name in ARRAYS},
     )
+    prefix = f"{FURTHER}."
+    further = {n.removeprefix(prefix): a for n, a in arrays.items() if n.startswith(prefix)}
+    return fit, further, facts.further
 
 
 def _check_shapes(path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: _Facts) -> None:
@@ -91,5 +129,5 @@ def _check_shapes(path: Path, network: MTRNN, arrays: Mapping[str, ndarray], fac
     for name, shape in {**shapes, "lengths": (learned,)}.items():
         if got[name] != shape:
             raise StorageError(f"{path}: {name} must have shape {shape}, got {got[name]}")
-    if not learned or not np.isfinite(arrays["initial_states"]).all():
-        raise StorageError(f"{path}: initial_states must be those of a motion at least, and finite")
+    if not np.isfinite(arrays["initial_states"]).all():
+        raise StorageError(f"{path}: initial_states must be finite")

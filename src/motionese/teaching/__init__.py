@@ -1,1 +1,1 @@
-"""Teaching by a person: drawing, understanding, performing, learning, a session that is kept."""
+"""Teaching by a person: drawing, recognition, performing, learning, a session that is kept."""

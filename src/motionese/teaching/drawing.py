@@ -2,24 +2,21 @@
 
 A person moves at a tempo of their own, the network knows one. Before the robot watches a drawing,
 still time is cut as the scripted caregiver cuts it, and what is left is played at the mean speed of
-that caregiver's hand. The path as it was drawn in time is kept beside it.
+that caregiver's hand.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.caregiver import Demonstrating
+from motionese.caregiver import Manner, lasting, moving, stroke_length
 from motionese.errors import MotioneseError
+from motionese.task import Task
 
 LONGEST_S, MOST_POINTS = 20.0, 4000
 """Limits of one drawing."""
 SHORTEST_M = 0.06
 """Shorter ways are slips of the pen."""
-STILL_M = 0.004
-"""A hand that moves less than this from row to row rests."""
 MOST_STROKES = 6
 """A demonstration is at most as long as so many strokes."""
 FINE_HZ = 100.0
@@ -27,19 +24,6 @@ FINE_HZ = 100.0
 
 class DrawingError(MotioneseError):
     """A drawing that is too short or too long to be shown; the text says so kindly."""
-
-
-@dataclass(frozen=True)
-class Demonstration:
-    """What a drawing means.
-
-    Attributes:
-        drawn: The hand's path [m, world] as it was drawn in time, one row a control period. [R, 3]
-        path: The same at the robot's tempo, which the robot watches. [T, 3]
-    """
-
-    drawn: Float[ndarray, "R 3"]
-    path: Float[ndarray, "T 3"]
 
 
 class Drawing:
@@ -84,56 +68,24 @@ class Drawing:
         return np.stack(columns, axis=-1)
 
 
-def demonstrated(drawn: Float[ndarray, "R 3"], manner: Demonstrating) -> Demonstration:
-    """Return a drawn path [m, world] as a demonstration.
+def at_tempo(drawn: Float[ndarray, "R 3"], task: Task, manner: Manner) -> Float[ndarray, "T 3"]:
+    """Return a drawn path [m, world] at the tempo of the scripted caregiver.
 
     Raises:
         DrawingError: The way is too short, or as long as too many strokes.
     """
     moved = moving(drawn, manner.rest_steps)
     length = float(np.linalg.norm(np.diff(moved, axis=0), axis=1).sum())
-    stroke = stroke_length(manner)
     if length < SHORTEST_M:
-        raise DrawingError("That was very short: draw from one corner to another.")
-    rows = round(length / stroke * (manner.stroke_steps + manner.rest_steps))
+        raise DrawingError("That was very short: draw from one place to another.")
+    rows = round(length / stroke_length(task) * manner.primitive_rows)
     if rows > most_rows(manner):
         raise DrawingError(
             f"That was longer than {MOST_STROKES} strokes: show fewer of them in one go."
         )
-    return Demonstration(drawn, lasting(moved, max(rows, 3)))
+    return lasting(moved, max(rows, 3))
 
 
-def most_rows(manner: Demonstrating) -> int:
+def most_rows(manner: Manner) -> int:
     """Return the rows of the longest demonstration."""
-    return MOST_STROKES * (manner.stroke_steps + manner.rest_steps)
-
-
-def stroke_length(manner: Demonstrating) -> float:
-    """Return how long a stroke is [m]: the mean of one to the side and one down."""
-    upper = manner.corner("UR")
-    ways = [upper - manner.corner(name) for name in ("LR", "UL")]
-    return float(np.mean([np.linalg.norm(way) for way in ways]))
-
-
-def lasting(path: Float[ndarray, "R D"], rows: int) -> Float[ndarray, "T D"]:
-    """Return a path played evenly faster or slower, so that it has so many rows."""
-    before, now = np.linspace(0, 1, len(path)), np.linspace(0, 1, rows)
-    return np.stack([np.interp(now, before, column) for column in path.T], axis=-1)
-
-
-def moving(path: Float[ndarray, "R 3"], rest_steps: int) -> Float[ndarray, "M 3"]:
-    """Cut stillness to one row at both ends, and to the caregiver's rest in between."""
-    kept: list[int] = [0]
-    still = 0
-    for row in range(1, len(path)):
-        rests = float(np.linalg.norm(path[row] - path[kept[-1]])) < STILL_M
-        still = still + 1 if rests else 0
-        if still <= (rest_steps if len(kept) > 1 else 0):
-            kept.append(row)
-    while len(kept) > 2 and _still(path, kept[-2], kept[-1]):
-        kept.pop()
-    return path[kept] if len(kept) > 1 else path[[0, 0]]
-
-
-def _still(path: Float[ndarray, "R 3"], one: int, other: int) -> bool:
-    return float(np.linalg.norm(path[other] - path[one])) < STILL_M
+    return MOST_STROKES * manner.primitive_rows

@@ -8,14 +8,12 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.body import Geometry
-from motionese.experiment import Scene
-from motionese.experiment.perform import ARM, Performance
-from motionese.learning import activity
+from motionese.caregiver import lasting
+from motionese.imitation import Performance
 from motionese.network import MTRNN
-from motionese.teaching.drawing import lasting
 
 FRAMES_A_ROW = 2
-"""Frames a control period: 20 a second at the body's 10 Hz."""
+"""Frames a control period: 20 a second at a body's 10 Hz."""
 DIGITS = 4
 
 
@@ -26,54 +24,51 @@ class Film:
     Attributes:
         rate_hz: Frames a second.
         columns: By name an array whose first axis is the frame: `poses` (7 numbers a body, see
-            `Geometry.placed`), `commanded` and `actual` arm angles [rad], `io`, `cf`, `cs`
-            (activity y), `buttons` (right, left [mm]).
+            `Geometry.placed`), `commanded` and `actual` joint angles [rad], `effects` (what the
+            task's things told, in the task's order).
+        activity: The units' output y by level, in the same way.
     """
 
     rate_hz: float
     columns: dict[str, Float[ndarray, "F _"]]
+    activity: dict[str, Float[ndarray, "F _"]]
 
     def __len__(self) -> int:
         return len(self.columns["poses"])
 
     def part(self, begin: int, end: int) -> dict[str, Any]:
         """Return some frames as lists of rounded numbers, for JSON."""
-        return {
-            name: np.round(column[begin:end], DIGITS).tolist()
-            for name, column in self.columns.items()
-        }
+        columns, activity = (
+            {name: np.round(each[begin:end], DIGITS).tolist() for name, each in arrays.items()}
+            for arrays in (self.columns, self.activity)
+        )
+        return {**columns, "activity": activity}
 
 
-def film(
-    scene: Scene,
-    geometry: Geometry,
-    network: MTRNN,
-    state: Float[ndarray, " N"],
-    performance: Performance,
-    steps: int,
-) -> Film:
-    """Return the film of a performance.
+def film(geometry: Geometry, network: MTRNN, performance: Performance, rate_hz: float) -> Film:
+    """Return the film of what happened in a performance, outside and inside.
 
     Args:
-        scene: Where it was performed.
         geometry: The robot's shapes.
         network: The network that performed.
-        state: The initial state it performed from.
         performance: What was recorded.
-        steps: At least its rows; always the same, so that nothing is compiled twice.
+        rate_hz: Its rows a second.
     """
     rows = len(performance.path)
-    first = performance.experience(scene.settings.imitation.efference_copy)[0]
-    inside = activity(network, state, steps, first=first)[:rows]
     frames = FRAMES_A_ROW * (rows - 1) + 1
     columns = {
-        "poses": performance.poses,
         "commanded": performance.commanded,
-        "actual": performance.sensed[:, ARM],
-        "buttons": performance.depths,
-        **{level.name: inside[:, network.units(level.name)] for level in network.levels},
+        "actual": performance.sensed[:, performance.joints],
+        "effects": np.array([*performance.effects.values()]).reshape(-1, rows).T,
     }
-    finer = {name: lasting(column, frames) for name, column in columns.items()}
-    finer["poses"] = geometry.placed(finer["poses"]).reshape(frames, -1)
-    finer.setdefault("cs", np.zeros((frames, 0)))
-    return Film(FRAMES_A_ROW * scene.body.rate_hz, finer)
+    finer = {name: lasting(column, frames) for name, column in columns.items() if column.size}
+    poses = geometry.placed(lasting(performance.poses, frames))
+    inside = performance.activity
+    return Film(
+        rate_hz=FRAMES_A_ROW * rate_hz,
+        columns={"poses": poses.reshape(frames, -1), "effects": np.zeros((frames, 0)), **finer},
+        activity={
+            level.name: lasting(inside[:, network.units(level.name)], frames)
+            for level in network.levels
+        },
+    )

@@ -1,17 +1,14 @@
 """The notebook: everything shown so far, how well it was imitated, and what was learned of it."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.caregiver import Demonstration
+
 Source = Literal["drawn", "webcam", "scripted"]
-SETTLED_AFTER = 3
-"""Learning has settled when so many errors in a row are hardly better than so many before."""
-SETTLED, GOOD_CM = 0.8, 2.0
 
 
 @dataclass(frozen=True)
@@ -20,10 +17,10 @@ class Entry:
 
     Attributes:
         number: Counted from 1; never given twice.
-        motion: What it is called: as drawn if that is a motion of the task, else as understood.
+        motion: What it is called: as drawn if that is a sequence of the task, else as understood.
         source: Who showed it.
         drawn: The hand's path [m, world] as it was drawn in time. [R, 3]
-        path: The same at the robot's tempo. [T, 3]
+        demonstration: The same at the robot's tempo.
         errors_cm: The imitations' errors, in order [cm].
     """
 
@@ -31,18 +28,18 @@ class Entry:
     motion: str
     source: Source
     drawn: Float[ndarray, "R 3"]
-    path: Float[ndarray, "T 3"]
+    demonstration: Demonstration
     errors_cm: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
-class Learned:
+class Learning:
     """One learning, or one growth of the network.
 
     Attributes:
         entry: The notebook's entry that was learned; 0 for growth.
         loop: The last loop that its experience carries.
-        before: The number of the kept learner that was there before.
+        before: The number of the learner that was there before.
         error_cm: The imitation's error afterwards [cm]; None for growth.
     """
 
@@ -57,7 +54,7 @@ class Notebook:
     """Entries and learnings, the oldest first; `next` numbers the next entry."""
 
     entries: tuple[Entry, ...] = ()
-    learned: tuple[Learned, ...] = ()
+    learned: tuple[Learning, ...] = ()
     next: int = field(default=1)
 
     def entry(self, number: int) -> Entry | None:
@@ -92,14 +89,3 @@ class Notebook:
     def last_loop(self) -> int:
         """The latest loop of a learning; 0 before the first."""
         return max((each.loop for each in self.learned), default=0)
-
-
-def has_settled(errors_cm: Iterable[float]) -> bool:
-    """Whether the last errors are small, or hardly smaller than those before them."""
-    errors = list(errors_cm)
-    last, before = errors[-SETTLED_AFTER:], errors[-2 * SETTLED_AFTER : -SETTLED_AFTER]
-    if len(last) < SETTLED_AFTER:
-        return False
-    if max(last) < GOOD_CM:
-        return True
-    return len(before) == SETTLED_AFTER and bool(np.mean(last) > SETTLED * np.mean(before))

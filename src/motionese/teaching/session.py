@@ -6,33 +6,40 @@ from dataclasses import dataclass, replace
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.experiment import Experience, Learner, Scene
-from motionese.experiment.keys import generator_for, key_for
-from motionese.experiment.measures import path_error_cm
-from motionese.experiment.perform import Performance, Watched, watch
-from motionese.teaching.drawing import Demonstration
-from motionese.teaching.notebook import Entry, Learned, Notebook, Source, has_settled
-from motionese.teaching.recognising import Recogniser, Understood
-from motionese.teaching.training import Told, trained
-from motionese.teaching.verdict import Verdict, judged
+from motionese.caregiver import Demonstration, segmented, sequence_in
+from motionese.imitation import (
+    Learner,
+    Performance,
+    Scene,
+    Settled,
+    Watched,
+    generator_for,
+    key_for,
+    path_error_cm,
+    watch,
+)
+from motionese.teaching.notebook import Entry, Learning, Notebook, Source
+from motionese.teaching.practice import Report, practised
+from motionese.teaching.recogniser import Interpretation, Recogniser, start_of
+from motionese.teaching.verdict import Verdict, verdict_on
 
 PRACTICE = 5
 """Imitation loops of one learning: imitate, and train on what the own body did, so many times."""
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A demonstration that was watched and understood."""
+class Observation:
+    """A demonstration that the robot has watched, and what it makes of it."""
 
     entry: Entry
     watched: Watched
-    understood: Understood
+    interpretation: Interpretation
     verdict: Verdict
 
 
 @dataclass(frozen=True)
-class Imitation:
-    """A performance and its error [cm]."""
+class Trial:
+    """A performance of what was shown, the initial state it began from, and its error [cm]."""
 
     performance: Performance
     state: Float[ndarray, " N"]
@@ -48,22 +55,61 @@ class Change:
     after_cm: float
 
 
+@dataclass(frozen=True)
+class Standing:
+    """Where a session stands; it can be returned to.
+
+    Attributes:
+        learner: What the robot has become.
+        number: The learner's number; no two learners of a session have the same.
+        notebook: What it was shown.
+        observed: What it was shown last, if anything.
+    """
+
+    learner: Learner
+    number: int
+    notebook: Notebook
+    observed: Observation | None = None
+
+
 class Teaching:
-    """One session; its methods may take a second, and are stopped by what `told` raises.
+    """One session; its methods may take a second, and are stopped by what `report` raises.
 
     Attributes:
         scene: The robot.
-        learner: What it has become.
-        notebook: What it was shown.
-        shown: What it was shown last, if anything.
-        kept: The number of the learner as it is kept (see `saving`).
+        standing: Where the session stands.
+        numbers: How many learners were numbered so far.
+        recogniser: Recognises with what the robot knows now.
     """
 
-    def __init__(self, scene: Scene, learner: Learner, notebook: Notebook, kept: int = 0) -> None:
-        """Begin, or go on."""
-        self.scene, self.notebook, self.kept = scene, notebook, kept
-        self.shown: Shown | None = None
-        self._become(learner)
+    def __init__(
+        self,
+        scene: Scene,
+        learner: Learner,
+        notebook: Notebook | None = None,
+        *,
+        number: int = 1,
+        numbers: int = 1,
+    ) -> None:
+        """Begin, or go on with a learner of a number, when so many numbers were given."""
+        self.scene, self.numbers = scene, numbers
+        self.standing = Standing(learner, number, notebook or Notebook())
+        self.recogniser = Recogniser(scene, learner)
+
+    @property
+    def learner(self) -> Learner:
+        """What the robot has become."""
+        return self.standing.learner
+
+    @property
+    def notebook(self) -> Notebook:
+        """What it was shown."""
+        return self.standing.notebook
+
+    @property
+    def observed(self) -> Observation | None:
+        """What it was shown last, if anything."""
+        return self.standing.observed
 
     @property
     def can_grow(self) -> bool:
@@ -73,76 +119,80 @@ class Teaching:
     @property
     def should_grow(self) -> bool:
         """Whether learning has settled since the last change of the network."""
-        grown = [i for i, each in enumerate(self.notebook.learned) if not each.entry]
-        since = self.notebook.learned[grown[-1] + 1 if grown else 0 :]
-        return self.can_grow and has_settled(
-            each.error_cm for each in since if each.error_cm is not None
-        )
+        learned = self.notebook.learned
+        grown = [i for i, each in enumerate(learned) if not each.entry]
+        since = learned[grown[-1] + 1 if grown else 0 :]
+        errors = [each.error_cm for each in since if each.error_cm is not None]
+        return self.can_grow and Settled().by(errors)
 
-    def watch(self, path: Float[ndarray, "T 3"]) -> Watched:
-        """Let the robot watch a hand's path [m, world]."""
-        return watch(self.scene.body, path, generator_for(self.scene.seed, "drawing"))
+    def watch(self, demonstration: Demonstration) -> Watched:
+        """Let the robot watch a demonstration."""
+        return watch(self.scene.body, demonstration, generator_for(self.scene.seed, "drawing"))
 
     def show(
-        self, demonstration: Demonstration, source: Source, before: Understood | None = None
-    ) -> Shown:
+        self,
+        path: Float[ndarray, "T 3"],
+        source: Source,
+        drawn: Float[ndarray, "R 3"] | None = None,
+        before: Interpretation | None = None,
+    ) -> Observation:
         """Show a motion: it is recognised, judged, and noted in the notebook.
 
         Args:
-            demonstration: What is shown.
+            path: The hand's path [m, world] at the robot's tempo.
             source: Who shows it.
+            drawn: The hand's path as it was drawn in time, where that differs.
             before: What was understood while it was drawn.
         """
-        watched = self.watch(demonstration.path)
-        understood = self.recogniser.at_the_end(watched, before)
+        task, notebook = self.scene.task, self.notebook
+        demonstration = segmented(path, sequence_in(path, task), task)
+        watched = self.watch(demonstration)
+        interpretation = self.recogniser.at_the_end(watched, before)
         known = {e.motion for e in self.learner.experiences}
-        verdict = judged(watched, understood, self.scene.settings.caregiver, known)
-        motion = verdict.shown or verdict.motion
-        name = motion.name if motion else f"{self.recogniser.starts_at(watched).start} ?"
-        entry = Entry(self.notebook.next, name, source, demonstration.drawn, demonstration.path)
-        self.notebook = self.notebook.with_entry(entry)
-        self.shown = Shown(entry, watched, understood, verdict)
-        return self.shown
+        verdict = verdict_on(watched.path, interpretation.path, task, known)
+        sequence = verdict.shown or verdict.recognised
+        name = sequence.name if sequence else f"{start_of(path, task).start} ?"
+        entry = Entry(notebook.next, name, source, path if drawn is None else drawn, demonstration)
+        observed = Observation(entry, watched, interpretation, verdict)
+        self._change(notebook=notebook.with_entry(entry), observed=observed)
+        return observed
 
-    def imitate(self) -> Imitation:
+    def imitate(self) -> Trial:
         """Perform what was shown last, and note the error."""
-        shown = self._shown()
-        imitation = self._performed(shown.watched, shown.understood)
-        entry = self.notebook.entry(shown.entry.number) or shown.entry
-        entry = replace(entry, errors_cm=(*entry.errors_cm, imitation.error_cm))
-        self.notebook = self.notebook.with_entry(entry)
-        self.shown = replace(shown, entry=entry)
-        return imitation
+        observed = self._observed()
+        trial = self._trial(observed.watched, observed.interpretation)
+        entry = self.notebook.entry(observed.entry.number) or observed.entry
+        entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
+        self._change(
+            notebook=self.notebook.with_entry(entry), observed=replace(observed, entry=entry)
+        )
+        return trial
 
-    def learn(self, told: Told) -> Change:
+    def learn(self, report: Report) -> Change:
         """Learn what was shown last by imitating it, as in the experiment's loop, a few times.
 
         The network of the practice after which the imitation was best is kept: one motion alone
         is little to learn from, and a further practice may lead away again. It is then what the
         robot does last, and what the notebook ends with.
         """
-        shown, began = self._shown(), self.kept
-        loop = max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
+        began, entry, loop = self.standing.number, self._observed().entry, self._last_loop()
         copied = self.scene.settings.imitation.efference_copy
-        before = imitation = self.imitate()
-        practised: list[tuple[float, Learner, Understood]] = []
+        before = trial = self.imitate()
+        outcomes: list[tuple[float, Standing]] = []
         for practice in range(PRACTICE):
             loop += 1
-            values = imitation.performance.experience(copied)
-            experience = Experience(loop, shown.entry.motion, values, imitation.state)
-            learner = replace(self.learner, experiences=(*self.learner.experiences, experience))
-            self._become(trained(self.scene, learner, loop, told, (practice, PRACTICE)))
+            values = trial.performance.experience(copied)
+            learner = self.learner.experiencing(loop, entry.motion, values, trial.state)
+            self._become(practised(self.scene, learner, loop, report, (practice, PRACTICE)))
             self._look_again()
-            imitation = self.imitate()
-            practised.append((imitation.error_cm, self.learner, self._shown().understood))
-        error, learner, understood = min(practised, key=lambda each: each[0])
-        self._become(learner)
-        self.shown = replace(self._shown(), understood=understood)
-        if error < imitation.error_cm:
+            trial = self.imitate()
+            outcomes.append((trial.error_cm, self.standing))
+        error, best = min(outcomes, key=lambda each: each[0])
+        self.return_to(replace(best, notebook=self.notebook))
+        if error < trial.error_cm:
             self.imitate()
-        learned = Learned(shown.entry.number, loop, began, error)
-        self.notebook = replace(self.notebook, learned=(*self.notebook.learned, learned))
-        return Change(shown.entry.motion, before.error_cm, error)
+        self._note(Learning(entry.number, loop, began, error))
+        return Change(entry.motion, before.error_cm, error)
 
     def forget(self, number: int, kept: Callable[[int], Learner]) -> str:
         """Take an entry out of the notebook, and what was learned of it back.
@@ -152,23 +202,25 @@ class Teaching:
 
         Args:
             number: The entry's number.
-            kept: Returns a learner that was kept.
+            kept: Returns the learner of a number.
 
         Returns:
             What was done, in a sentence; empty if there is no such entry.
         """
-        entry = self.notebook.entry(number)
+        entry, learned = self.notebook.entry(number), self.notebook.learned
         if entry is None:
             return ""
-        places = [i for i, each in enumerate(self.notebook.learned) if each.entry == number]
-        since = self.notebook.learned[places[0] :] if places else ()
-        self.notebook = self.notebook.without(number)
-        if self.shown is not None and self.shown.entry.number == number:
-            self.shown = None
+        places = [i for i, each in enumerate(learned) if each.entry == number]
+        since = learned[places[0] :] if places else ()
+        observed = self.observed
+        if observed is not None and observed.entry.number == number:
+            observed = None
+        self._change(notebook=self.notebook.without(number), observed=observed)
         if not places:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
-            self._become(kept(since[0].before))
+            earlier = since[0].before
+            self.return_to(replace(self.standing, learner=kept(earlier), number=earlier))
             return f"{entry.motion} is forgotten: the network is again what it was before."
         loops = {each.loop - i for each in since if each.entry == number for i in range(PRACTICE)}
         left = tuple(e for e in self.learner.experiences if e.loop not in loops)
@@ -178,54 +230,69 @@ class Teaching:
             "network has of it fades as you teach on."
         )
 
-    def grow(self, told: Told) -> list[Change]:
+    def grow(self, report: Report) -> list[Change]:
         """Open the next level, let it learn with the others, and compare the same imitations."""
-        entries, began = self.notebook.latest(), self.kept
+        entries, began, loop = self.notebook.latest(), self.standing.number, self._last_loop()
         before = [self._error_of(entry) for entry in entries]
-        loop = max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
         # The network's own key, as in the experiment: see `experiment.run`.
         key = key_for(self.scene.seed, "network")
         learner = self.learner.grown(self.scene.settings.network, key)
         if learner.experiences:
-            learner = trained(self.scene, learner, loop, told)
+            learner = practised(self.scene, learner, loop, report)
         self._become(learner)
         self._look_again()
         after = [self._error_of(entry) for entry in entries]
-        learned = (*self.notebook.learned, Learned(0, loop, began, None))
-        self.notebook = replace(self.notebook, learned=learned)
+        self._note(Learning(0, loop, began, None))
         motions = [entry.motion for entry in entries]
         return [Change(*each) for each in zip(motions, before, after, strict=True)]
 
-    def return_to(self, learner: Learner, notebook: Notebook, shown: Shown | None) -> None:
+    def return_to(self, standing: Standing) -> None:
         """Take everything back that has changed since."""
-        self.notebook, self.shown = notebook, shown
-        if learner is not self.learner:
-            self._become(learner)
+        if standing.learner is not self.learner:
+            self.recogniser = Recogniser(self.scene, standing.learner)
+        self.standing = standing
+
+    def warm_up(self) -> None:
+        """Let everything be compiled that a drawing asks for, by what nobody sees."""
+        sequence = self.scene.task.sequences(1)[0]
+        rng = generator_for(0, "warming")
+        watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
+        so_far = self.recogniser.so_far(watched, None)
+        state = self.recogniser.at_the_end(watched, so_far).state
+        self.scene.perform(self.learner.network, state, sequence, 3, "warming")
+
+    def _change(self, *, notebook: Notebook, observed: Observation | None) -> None:
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
 
     def _become(self, learner: Learner) -> None:
-        self.learner = learner
-        self.recogniser = Recogniser(self.scene, learner)
+        self.numbers += 1
+        self.return_to(replace(self.standing, learner=learner, number=self.numbers))
+
+    def _note(self, learning: Learning) -> None:
+        notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
+        self._change(notebook=notebook, observed=self.observed)
 
     def _look_again(self) -> None:
         """Recognise what was shown last with the network as it is now."""
-        if self.shown is not None:
-            understood = self.recogniser.at_the_end(self.shown.watched, None)
-            self.shown = replace(self.shown, understood=understood)
+        if (observed := self.observed) is not None:
+            interpretation = self.recogniser.at_the_end(observed.watched)
+            observed = replace(observed, interpretation=interpretation)
+            self._change(notebook=self.notebook, observed=observed)
 
-    def _shown(self) -> Shown:
-        assert self.shown is not None, "something must be shown before it is imitated"
-        return self.shown
+    def _observed(self) -> Observation:
+        assert self.observed is not None, "something must be shown before it is imitated"
+        return self.observed
 
-    def _performed(self, watched: Watched, understood: Understood) -> Imitation:
+    def _last_loop(self) -> int:
+        return max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
+
+    def _trial(self, watched: Watched, interpretation: Interpretation) -> Trial:
+        sequence = start_of(watched.path, self.scene.task)
         done = self.scene.perform(
-            self.learner.network,
-            understood.state,
-            self.recogniser.starts_at(watched),
-            len(watched.path),
-            "teaching",
+            self.learner.network, interpretation.state, sequence, len(watched.path), "teaching"
         )
-        return Imitation(done, understood.state, path_error_cm(done.path, watched.path))
+        return Trial(done, interpretation.state, path_error_cm(done.path, watched.path))
 
     def _error_of(self, entry: Entry) -> float:
-        watched = self.watch(entry.path)
-        return self._performed(watched, self.recogniser.at_the_end(watched, None)).error_cm
+        watched = self.watch(entry.demonstration)
+        return self._trial(watched, self.recogniser.at_the_end(watched)).error_cm

@@ -1,0 +1,31 @@
+"""The list of departures from the paper, read from the file that the docs include."""
+
+import re
+from dataclasses import dataclass
+from importlib import resources
+
+FILE = "departures.md"
+
+
+@dataclass(frozen=True)
+class Departure:
+    """One departure: under which heading, what, and why."""
+
+    heading: str
+    what: str
+    why: str
+
+
+def departures() -> list[Departure]:
+    """Return all departures, in the file's order.
+
+    In the file, "## Heading" begins a group, and "- **What.** Why" is a departure on one line.
+    """
+    text = resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8")
+    found, heading = [], ""
+    for line in text.splitlines():
+        if line.startswith("## "):
+            heading = line.removeprefix("## ").strip()
+        elif match := re.fullmatch(r"- \*\*(.+?)\*\* (.+)", line):
+            found.append(Departure(heading, match[1], match[2].replace("`", "")))
+    return found

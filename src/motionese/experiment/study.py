@@ -1,0 +1,142 @@
+"""A study: a robot that imitates, stages of development, and the factors that are varied."""
+
+from typing import Annotated, Any
+
+from pydantic import Field, field_validator, model_validator
+
+from motionese.caregiver import Manner
+from motionese.errors import MotioneseError, SettingError, unknown
+from motionese.experiment.conditions import Condition, conditions_of
+from motionese.imitation import Group, Settings, Stage, Until
+from motionese.task import Task
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9]+$")]
+"""Of a choice: it becomes part of a folder's name."""
+Lesson = str | Annotated[list[str], Field(min_length=1)]
+Levels = Annotated[list[str], Field(min_length=2)]
+
+
+class StageSettings(Group):
+    """One stage. Every entry but the last holds for all conditions, or is given by choice.
+
+    Attributes:
+        lesson: A lesson of the task, or sequences such as "UR ↓↑" or "PUSH(R)+RAISE(R)".
+        levels: The open levels of the network, from io upwards.
+        caregiver: How the caregiver moves where that differs from `[caregiver]`.
+        until: When the stage ends.
+    """
+
+    lesson: Lesson | dict[str, Lesson]
+    levels: Levels | dict[str, Levels]
+    caregiver: dict[str, Any] = Field(default_factory=dict)
+    until: Until
+
+
+class Study(Settings):
+    """All settings of a study; presets explain each where they give its value.
+
+    Attributes:
+        factors: What is varied, each with its choices; conditions are their combinations.
+        stages: The stages of development, one after the other.
+    """
+
+    factors: dict[str, tuple[Name, ...]]
+    stages: list[StageSettings] = Field(min_length=1)
+
+    @field_validator("factors")
+    @classmethod
+    def _choices_are_unique(cls, factors: dict[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
+        choices = [choice for listed in factors.values() for choice in listed]
+        doubled = sorted({c for c in choices if choices.count(c) > 1})
+        if not choices or not all(factors.values()) or doubled:
+            raise ValueError(
+                "every factor needs choices, each of a name of its own; "
+                f"got {', '.join(choices) or 'none'}"
+            )
+        return factors
+
+    @model_validator(mode="after")
+    def _stages_can_be_gone_through(self) -> "Study":
+        try:
+            for condition in self.conditions:
+                self.development(condition)
+        except MotioneseError as error:
+            raise ValueError(str(error)) from error
+        return self
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """All conditions, the first factor changing slowest."""
+        return conditions_of(self.factors)
+
+    def development(self, condition: Condition) -> tuple[Stage, ...]:
+        """Return the stages that a condition goes through.
+
+        Raises:
+            TaskError: A lesson or sequence that the task does not have.
+            SettingError: Levels that do not exist, or one that is open and would be closed.
+        """
+        task, stages, opened = self.task.task(), [], 0
+        for number, stage in enumerate(self.stages):
+            levels = self._open(number, self._chosen(stage.levels, condition))
+            if levels < opened:
+                raise SettingError(
+                    f"stages.{number}.levels closes a level that stage {number - 1} has opened in "
+                    f"{condition.name}: a network grows, and keeps what it has"
+                )
+            opened = levels
+            stages.append(
+                Stage(
+                    lesson=self._lesson(task, number, self._chosen(stage.lesson, condition)),
+                    levels=levels,
+                    manner=self._manner(number, self._chosen(stage.caregiver, condition)),
+                    until=stage.until,
+                )
+            )
+        return tuple(stages)
+
+    def most_loops(self) -> int:
+        """Return how many loops a run has at most."""
+        return sum(stage.until.loops for stage in self.stages)
+
+    def _chosen(self, value: Any, condition: Condition) -> Any:
+        """Return what holds for a condition: a value for all, or that of one of its choices."""
+        if not isinstance(value, dict):
+            return value
+        for choices, choice in zip(self.factors.values(), condition.choices, strict=True):
+            if value and value.keys() <= set(choices):
+                if choice not in value:
+                    raise SettingError(
+                        f"a stage says nothing for {choice}; it does for {', '.join(value)}"
+                    )
+                return value[choice]
+        return value
+
+    def _open(self, number: int, levels: Any) -> int:
+        known = list(self.network.levels)
+        for name in levels:
+            if name not in known:
+                where = f"level in stages.{number}.levels"
+                raise SettingError(unknown(where, name, [*known, *self._choices()]))
+        if levels != known[: len(levels)]:
+            raise SettingError(
+                f"stages.{number}.levels must be the network's, from io upwards without a gap "
+                f"({', '.join(known)}), got {', '.join(levels)}"
+            )
+        return len(levels)
+
+    def _lesson(self, task: Task, number: int, lesson: Any) -> Any:
+        if isinstance(lesson, dict):
+            name = next(iter(lesson))
+            raise SettingError(unknown(f"choice in stages.{number}.lesson", name, self._choices()))
+        return task.lesson(lesson)
+
+    def _manner(self, number: int, differing: dict[str, Any]) -> Manner:
+        for name in differing:
+            if name not in Manner.model_fields:
+                known = [*Manner.model_fields, *self._choices()]
+                raise SettingError(unknown(f"setting in stages.{number}.caregiver", name, known))
+        return Manner.model_validate({**self.caregiver.model_dump(), **differing})
+
+    def _choices(self) -> list[str]:
+        return [choice for choices in self.factors.values() for choice in choices]

@@ -1,0 +1,67 @@
+"""Imitation: a scene, performances, a learner, the loop, its development and its measures."""
+
+from motionese.imitation.development import LoopDone, Settled, Stage, Until, next_stage
+from motionese.imitation.evaluation import imitate_novel, kept_of, sample_sequence
+from motionese.imitation.initial_state_map import (
+    has_map,
+    map_slow_states,
+    slow_map_of,
+    with_slow_state,
+)
+from motionese.imitation.keys import generator_for, key_for
+from motionese.imitation.learner import (
+    BABBLING,
+    Experience,
+    Learner,
+    babbled,
+    newborn,
+    read_learner,
+    write_learner,
+)
+from motionese.imitation.loop import Imitation, Row, imitate, imitation_loop, network_row
+from motionese.imitation.measures import path_error_cm, seen_error_cm
+from motionese.imitation.performance import Performance, Watched, babble, perform, watch
+from motionese.imitation.scene import Recordings, Scene
+from motionese.imitation.settings import Group, Settings, checked, setting_names
+
+__all__ = [
+    "BABBLING",
+    "Experience",
+    "Group",
+    "Imitation",
+    "Learner",
+    "LoopDone",
+    "Performance",
+    "Recordings",
+    "Row",
+    "Scene",
+    "Settings",
+    "Settled",
+    "Stage",
+    "Until",
+    "Watched",
+    "babble",
+    "babbled",
+    "checked",
+    "generator_for",
+    "has_map",
+    "imitate",
+    "imitate_novel",
+    "imitation_loop",
+    "kept_of",
+    "key_for",
+    "map_slow_states",
+    "network_row",
+    "newborn",
+    "next_stage",
+    "path_error_cm",
+    "perform",
+    "read_learner",
+    "sample_sequence",
+    "seen_error_cm",
+    "setting_names",
+    "slow_map_of",
+    "watch",
+    "with_slow_state",
+    "write_learner",
+]

@@ -1,0 +1,81 @@
+"""After the last loop: imitation of sequences that were never taught. Nothing is learned here."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy import ndarray
+
+from motionese.imitation.learner import Learner
+from motionese.imitation.loop import Imitation, Row, imitate
+from motionese.imitation.scene import Scene
+from motionese.task import PrimitiveSequence, Task
+
+
+def imitate_novel(
+    scene: Scene,
+    learner: Learner,
+    novel: Sequence[PrimitiveSequence],
+    taught: Iterable[PrimitiveSequence],
+) -> tuple[list[Row], list[Imitation]]:
+    """Imitate every new sequence once, by recognition alone.
+
+    Args:
+        scene: Robot and caregiver.
+        learner: What the robot has become.
+        novel: The new sequences.
+        taught: What it was taught, in all stages. A sequence counts as trained if all its pairs
+            were part of a lesson; one that was a lesson as a whole is not new.
+
+    Returns:
+        A row per new sequence, and the imitations of all of them.
+    """
+    taught = set(taught)
+    pairs = {pair for sequence in taught for pair in sequence.pairs()}
+    settings = scene.settings.evaluation.recognition
+    imitated = imitate(scene, learner, novel, settings, "new motions")
+    rows = [
+        {
+            "motion": each.sequence.name,
+            "trained": pairs.issuperset(each.sequence.pairs()),
+            **each.measures(scene),
+            "status": each.found.status.ending.value,
+        }
+        for each in imitated
+        if each.sequence not in taught
+    ]
+    return rows, imitated
+
+
+def sample_sequence(task: Task) -> PrimitiveSequence | None:
+    """Return the new sequence whose performance is kept with everything that went on inside.
+
+    It is the first one of taught pairs, or the first of all; None for a task without new ones.
+    """
+    novel = [sequence for name in task.novel for sequence in task.lesson(name)]
+    return next((s for s in novel if task.is_taught(s)), novel[0] if novel else None)
+
+
+def kept_of(task: Task, imitated: Sequence[Imitation]) -> dict[str, ndarray]:
+    """Return what is kept of performances: hands' paths of all, everything of one.
+
+    Returns:
+        `shown.NAME` and `performed.NAME`, paths [m] [T, 3]; of `sample_sequence` also `activity`
+        (y of all units while it was performed [T, N]), `commanded` and `sensed` joint angles
+        [rad] [T, J], `begins`, `poses`, and `effect.NAME` [T] of every effect.
+    """
+    kept: dict[str, ndarray] = {}
+    sample = sample_sequence(task)
+    for each in imitated:
+        done = each.performance
+        kept[f"shown.{each.sequence.name}"] = each.watched.path
+        kept[f"performed.{each.sequence.name}"] = done.path
+        if each.sequence == sample:
+            kept |= {
+                "activity": done.activity,
+                "commanded": done.commanded,
+                "sensed": done.sensed[:, done.joints],
+                "begins": np.array(each.watched.begins),
+                "poses": done.poses,
+            }
+            kept |= {f"effect.{name}": values for name, values in done.effects.items()}
+    return kept

@@ -1,0 +1,173 @@
+"""What may be varied about an imitation, as types with their allowed ranges."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+
+from motionese.body import BodySettings
+from motionese.caregiver import Manner
+from motionese.channels import Channels
+from motionese.errors import SettingError, unknown
+from motionese.learning import Recognition, Training
+from motionese.network import InitialIO, Level, Scale
+from motionese.task import Task, task_named
+
+Table = dict[str, Any]
+
+
+class Group(BaseModel):
+    """A table of settings: complete, read-only, without unknown names."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+M = TypeVar("M", bound=Group)
+
+
+class TaskSettings(Group):
+    """Which task, and where its places are that differ from the task's own [m, world]."""
+
+    name: str
+    places: dict[str, tuple[float, float, float]] = {}
+
+    def task(self) -> Task:
+        """Return the task; `TaskError` for one, or a place, that does not exist."""
+        return task_named(self.name).with_places(self.places)
+
+
+class LevelSettings(Group):
+    """One level of the network; IO has one unit per channel, and may leave its size out."""
+
+    size: int | None = Field(default=None, ge=1)
+    tau: float = Field(ge=1, allow_inf_nan=False)
+
+
+class NetworkSettings(Group):
+    """The network as it is drawn, and how a further level is opened."""
+
+    gain: float = Field(ge=0, allow_inf_nan=False)
+    scale: Scale
+    learned_bias: bool
+    initial_io: InitialIO
+    influence: float = Field(ge=0, allow_inf_nan=False)
+    levels: dict[str, LevelSettings] = Field(min_length=2)
+
+    @field_validator("levels")
+    @classmethod
+    def _io_comes_first(cls, levels: dict[str, LevelSettings]) -> dict[str, LevelSettings]:
+        names = list(levels)
+        if names[0] != "io":
+            raise ValueError(f"all levels must be listed, from io upwards, got {', '.join(names)}")
+        for name in names[1:]:
+            if levels[name].size is None:
+                raise ValueError(f"level {name} needs a size")
+        return levels
+
+    def drawn_levels(self, channels: Channels) -> tuple[Level, ...]:
+        """Return the levels from IO upwards, over a body's channels."""
+        return tuple(
+            Level(each.size or len(channels), each.tau, name) for name, each in self.levels.items()
+        )
+
+
+class Babbling(Group):
+    """Point-to-point movements of the own arm before loop 1."""
+
+    movements: int = Field(ge=0)
+    epochs: int = Field(ge=1)
+
+
+class Acting(Group):
+    """How the robot acts, what an experience holds, and how many of them are learned from."""
+
+    efference_copy: bool
+    feedback: float = Field(ge=0, le=1)
+    exploration: float = Field(ge=0, le=1)
+    memory: int = Field(ge=1)
+    rehearsal: bool
+
+
+class Evaluation(Group):
+    """Recognition of new motions, and the map of the slow initial states."""
+
+    recognition: Recognition
+    map_points: int = Field(ge=2)
+    map_range: float = Field(gt=0, allow_inf_nan=False)
+
+
+class Settings(Group):
+    """All settings of a robot that imitates; presets explain each where they give its value."""
+
+    task: TaskSettings
+    body: BodySettings
+    network: NetworkSettings
+    caregiver: Manner
+    babbling: Babbling
+    imitation: Acting
+    training: Training
+    recognition: Recognition
+    evaluation: Evaluation
+
+    @model_validator(mode="after")
+    def _levels_exist(self) -> "Settings":
+        known = list(self.network.levels)
+        for group in ("training", "recognition"):
+            for field in ("bound", "noise"):
+                by_level = getattr(getattr(self, group), field, {})
+                for level in by_level if isinstance(by_level, dict) else ():
+                    if level not in known:
+                        raise ValueError(unknown(f"level in {group}.{field}", level, known))
+        return self
+
+
+def checked(model: type[M], table: Table) -> M:
+    """Return the settings of a complete table; `SettingError` names the first that is wrong."""
+    try:
+        return model.model_validate(table)
+    except ValidationError as error:
+        first = error.errors()[0]
+        # Of a location, only what stands in the file: not which of several types was tried.
+        path: list[str] = []
+        here: Any = table
+        missing = first["loc"][-1:] if first["type"] == "missing" else ()
+        for part in first["loc"]:
+            if isinstance(here, list) and isinstance(part, int) and part < len(here):
+                path, here = [*path, str(part)], here[part]
+            elif isinstance(here, Mapping) and (part in here or part in missing):
+                path, here = [*path, str(part)], here.get(part)
+        name = ".".join(path)
+        if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
+            known = [n for n in setting_names(model, path[:-1]) if n != name]
+            raise SettingError(unknown("setting", name, known)) from error
+        if first["type"] == "union_tag_invalid":
+            asked, among = first["ctx"]["tag"], first["ctx"]["expected_tags"]
+            raise SettingError(
+                f"setting {name}.name = '{asked}': input should be {among}"
+            ) from error
+        if first["type"] == "missing":
+            raise SettingError(f"setting {name} is missing") from error
+        got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
+        what = first["msg"].removeprefix("Value error, ")
+        what = what[:1].lower() + what[1:]
+        raise SettingError(f"setting {name}{got}: {what}" if name else what) from error
+
+
+def setting_names(model: type[BaseModel], path: list[str]) -> list[str]:
+    """Return the full names of the settings in a group; none where its names are not fixed."""
+    groups = [model]
+    for part in path:
+        if part.isdecimal():  # a place in a list, whose type its field has told
+            continue
+        fields = [g.model_fields[part].annotation for g in groups if part in g.model_fields]
+        groups = [g for annotation in fields for g in _groups_in(annotation)]
+    names = dict.fromkeys(name for group in groups for name in group.model_fields)
+    return [".".join([*path, name]) for name in names]
+
+
+def _groups_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the groups of settings that a type is, or is a union or a container of."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _groups_in(part)

@@ -1,0 +1,73 @@
+"""The command line: the experiment's commands, and below them those for one's own robot.
+
+Everything that takes time to import is imported by the command that needs it, so that help and
+complaints come at once.
+"""
+
+import sys
+from collections.abc import Sequence
+from importlib import metadata
+from typing import Annotated
+
+import typer
+
+from motionese.interfaces.commands import (
+    experiment_commands,
+    model_commands,
+    recording_commands,
+)
+
+app = typer.Typer(
+    help="Developmental imitation learning: the experiment, and your own robot's recordings.",
+    no_args_is_help=True,
+    add_completion=False,
+    # The tables of locals in Typer's own tracebacks hide the line that matters.
+    pretty_exceptions_enable=False,
+)
+SEVERAL = (
+    *("--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
+    *("--observed", "--log", "--like", "--start"),
+)
+"""Options that may be followed by several values."""
+
+
+def main() -> None:
+    """Run the command line; exit status 2 for what the user can put right, 130 for Ctrl-C."""
+    app(spread(sys.argv[1:]), prog_name="motionese")
+
+
+def spread(arguments: Sequence[str]) -> list[str]:
+    """Repeat an option before each of its values: '--set a=1 b=2' becomes '--set a=1 --set b=2'."""
+    result: list[str] = []
+    option = ""
+    for argument in arguments:
+        if argument.startswith("-"):
+            option = argument if argument in SEVERAL else ""
+        elif option and result[-1] != option:
+            result.append(option)
+        result.append(argument)
+    return result
+
+
+def _show_version(asked: bool) -> bool:
+    if asked:
+        typer.echo(f"motionese {metadata.version('motionese')}")
+        raise typer.Exit
+    return asked
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and leave."
+        ),
+    ] = False,
+) -> None:
+    """Take what stands before a command."""
+
+
+experiment_commands.add_to(app)
+recording_commands.add_to(app)
+model_commands.add_to(app)

@@ -1,0 +1,162 @@
+"""Commands for the experiment: reproduce, report, presets, teach."""
+# ruff: noqa: PLC0415
+
+import os
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from motionese.errors import SettingError, needs, unknown
+from motionese.interfaces.commands.exit_status import WRONG, plainly
+
+PANEL = "The experiment"
+EXPERIMENT = ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas", "scipy")
+MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn", "websockets")}
+"""What an extra brings."""
+
+
+def add_to(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
+    for command in (reproduce, report, presets, teach):
+        app.command(rich_help_panel=PANEL)(command)
+
+
+def reproduce(
+    conditions: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all."
+        ),
+    ] = None,
+    seeds: Annotated[
+        str, typer.Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
+    ] = "3",
+    preset: Annotated[
+        str, typer.Option(metavar="NAME|FILE", help="Settings; see `motionese presets`.")
+    ] = "default",
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40."),
+    ] = None,
+    vision: Annotated[
+        str | None,
+        typer.Option(metavar="projection|rendered", help="Where the robot sees hands from."),
+    ] = None,
+    caregiver: Annotated[
+        str,
+        typer.Option(
+            metavar="scripted|recordings:FOLDER",
+            help="Who shows the motions: e.g. what `motionese teach` has kept in a folder.",
+        ),
+    ] = "scripted",
+    out: Annotated[Path | None, typer.Option(help="The run folder; default: runs/PRESET.")] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Runs at a time; default: one a core.")
+    ] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="A short trial of everything; its figures mean nothing.")
+    ] = False,
+) -> None:
+    """Perform the experiment, or go on with it, and report.
+
+    Stopped or killed at any time, the same command goes on, and ends with the same results.
+    """
+    with plainly("stopped; the same command goes on") as console:
+        # Networks this small are fastest on the CPU; read when jax is imported.
+        os.environ.setdefault("JAX_PLATFORMS", "cpu")
+        _check_extra("reproduce")
+        from motionese.interfaces.commands.reproduce import reproduce as perform
+
+        too_few = perform(
+            console,
+            conditions=conditions or (),
+            seeds=seeds,
+            preset=preset,
+            overrides=[*(overrides or ()), *([f"body.vision={vision}"] if vision else ())],
+            out=out,
+            workers=workers,
+            quick=quick,
+            caregiver=caregiver,
+        )
+    _end(too_few, trial=quick)
+
+
+def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RUN")]) -> None:
+    """Write the report of a run folder again, also while its runs go on."""
+    with plainly("stopped; the report was not written") as console:
+        _check_extra("report")
+        from motionese.interfaces.commands.results import write_results
+
+        too_few = write_results(run, console)
+    _end(too_few)
+
+
+def presets(
+    name: Annotated[str | None, typer.Argument(help="The preset to print.")] = None,
+) -> None:
+    """List the presets, or print one to copy and edit."""
+    with plainly("stopped"):
+        _check_extra("presets")
+        from motionese.experiment.presets import PRESETS, preset_text
+
+        if name is None:
+            for each in PRESETS:
+                typer.echo(f"{each}: {preset_text(each).splitlines()[0].removeprefix('# ')}")
+        elif name in PRESETS:
+            typer.echo(preset_text(name), nl=False)
+        else:
+            raise SettingError(unknown("preset", name, PRESETS))
+
+
+def teach(
+    begin: Annotated[
+        str,
+        typer.Option(
+            metavar="babbling|RUN",
+            help="A robot that has only babbled, or a run folder's (RUN/CONDITION/SEED for one).",
+        ),
+    ] = "",
+    session: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Where the session is kept, and goes on from.")
+    ] = Path("session"),
+    host: Annotated[
+        str, typer.Option(help="The address to listen at; others need a --token.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 0,
+    token: Annotated[str, typer.Option(help="What a page must know to be let in.")] = "",
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the address, open nothing.")
+    ] = False,
+) -> None:
+    """Teach the simulated robot yourself, on a page in your browser."""
+    with plainly("stopped; the session is kept, the same command goes on") as console:
+        _check_extra("teach", "web")
+        from motionese.interfaces.page.server import teach as serve
+
+        serve(
+            console,
+            begin=begin,
+            session=session,
+            host=host,
+            port=port,
+            token=token,
+            browser=not no_browser,
+        )
+
+
+def _check_extra(command: str, extra: str = "experiment") -> None:
+    """Refuse a command whose packages are not installed, before they are imported."""
+    for module in MODULES[extra]:
+        if find_spec(module) is None:
+            package = {"mujoco": "mujoco-core"}.get(module, module)
+            raise needs(package, extra, command)
+
+
+def _end(too_few: str, *, trial: bool = False) -> None:
+    """Say why a statistical test is missing; that counts as an error unless this was a trial."""
+    if too_few:
+        typer.echo(f"motionese: {too_few}", err=True)
+        if not trial:
+            raise typer.Exit(WRONG)

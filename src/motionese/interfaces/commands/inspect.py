@@ -1,0 +1,115 @@
+"""What is in recordings, as tables and a plot, whatever is wrong with them."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from motionese.interfaces.commands.motion_figure import write_figure
+from motionese.interfaces.commands.outputs import PICTURES, check_output
+from motionese.interfaces.commands.tables import number_table
+from motionese.recordings import Recording, Survey, choose, chosen, read, survey
+
+MOST_EPISODES = 40
+"""Rows of the table of episodes; the rest is summed up in one."""
+
+
+def inspect_recordings(
+    console: Console, source: Path, plot: Path, reading: Mapping[str, Any]
+) -> None:
+    """Print what is in a file or folder of recordings, and draw it.
+
+    Args:
+        console: Where it is printed.
+        source: The file or folder.
+        plot: The figure to write, .svg or .png.
+        reading: Format, columns, channels and rate, as `Motions.read` takes them.
+    """
+    check_output("--plot", plot, PICTURES)
+    columns = {name: reading[name] for name in ("format", "episode", "time")}
+    choice = choose(**{name: told for name, told in reading.items() if name not in columns})
+    found = chosen(read(source, **columns), choice)
+    numbers = survey(found)
+    rate = numbers.rate_hz or choice.rate_hz
+    console.print(_heading(found, numbers, rate), soft_wrap=True)
+    console.print(_channels(numbers))
+    console.print(_episodes(numbers, rate))
+    write_figure(
+        plot,
+        [
+            np.where(e.observed & np.isfinite(e.values), e.values, np.nan)
+            for e in found.episodes
+            if len(e.values)
+        ],
+        [e.name for e in found.episodes if len(e.values)],
+        list(zip(found.channels, found.units, strict=True)),
+        rate,
+        f"{source.name}: {len(found.episodes)} episodes",
+    )
+    console.print(f"Plot: {plot}")
+
+
+def _heading(found: Recording, numbers: Survey, rate: float | None) -> str:
+    rows = sum(e.rows for e in numbers.episodes)
+    told = f"{rate:g} Hz" if rate else "no rate told (give it with --rate when it is learned from)"
+    jitter = f", intervals within {numbers.jitter:.1%}" if numbers.jitter is not None else ""
+    return (
+        f"{found.source}: {len(found.episodes)} episodes, {rows} rows, "
+        f"{len(found.channels)} channels, {told}{jitter}"
+    )
+
+
+def _channels(numbers: Survey) -> Table:
+    table = number_table(
+        "channel", "unit", "low", "high", "mean\nstep", "still", "gaps", "NaN", "inf"
+    )
+    table.columns[1].justify = "left"
+    for c in numbers.channels:
+        table.add_row(
+            c.name,
+            c.unit or "–",
+            _number(c.low),
+            _number(c.high),
+            _number(c.mean_step),
+            f"{c.still:.0%}",
+            f"{c.unobserved:.0%}",
+            _count(c.nan),
+            _count(c.infinite),
+        )
+    return table
+
+
+def _episodes(numbers: Survey, rate: float | None) -> Table:
+    table = number_table("episode", "rows", "s", "still (ends)", "gaps", "holes", "NaN", "inf")
+    for e in numbers.episodes[:MOST_EPISODES]:
+        seconds = e.duration_s if e.duration_s is not None or not rate else (e.rows - 1) / rate
+        table.add_row(
+            e.name,
+            str(e.rows),
+            "–" if seconds is None else f"{seconds:.2f}",
+            f"{e.still:.0%} ({e.still_start:.0%}, {e.still_end:.0%})",
+            f"{e.unobserved:.0%}",
+            _count(e.holes),
+            _count(e.nan),
+            _count(e.infinite),
+        )
+    further = numbers.episodes[MOST_EPISODES:]
+    if further:
+        table.add_row(
+            f"{len(further)} more",
+            str(sum(e.rows for e in further)),
+            *["–"] * 3,
+            *(_count(sum(getattr(e, n) for e in further)) for n in ("holes", "nan", "infinite")),
+        )
+    return table
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else f"{value:.3g}"
+
+
+def _count(number: int) -> str:
+    return str(number) if number else "–"

@@ -1,0 +1,100 @@
+"""Motions drawn: one small panel a channel, time along, every motion a line."""
+
+import warnings
+from collections.abc import Sequence
+from math import ceil
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from numpy import ndarray
+
+from motionese.errors import StorageError
+from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
+from motionese.files import write_whole
+
+COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
+"""Panels side by side, their height [inch], and how many channels are drawn at most."""
+LARGEST = 1e100
+"""Beyond it values are not drawn."""
+MANY = 8
+"""From so many motions on, lines are thin and pale and have no names."""
+COLOURS = [*(colour for hue in HUES for colour in hue), "#cc79a7", "#000000"]
+"""Okabe & Ito's palette: distinguishable without colour vision."""
+
+
+def write_figure(
+    path: Path,
+    paths: Sequence[Float[ndarray, "_ D"]],
+    names: Sequence[str],
+    channels: Sequence[tuple[str, str]],
+    rate_hz: float | None,
+    title: str,
+) -> None:
+    """Draw motions and write the figure as SVG or PNG.
+
+    Args:
+        path: The file to write; PNG if it ends so, else SVG.
+        paths: The motions; NaN where nothing was observed. [T_i, D]
+        names: Their names.
+        channels: Name and unit of every channel.
+        rate_hz: Rows per second [Hz]; rows are counted where it is None.
+        title: What is drawn.
+
+    Raises:
+        StorageError: A file that cannot be written.
+    """
+    # Names are what they are, dollars included.
+    with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
+        # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
+        warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
+        if len(channels) > MOST:
+            title += f" (the first {MOST} of {len(channels)} channels)"
+        drawn = finished(_figure(paths, names, channels[:MOST], rate_hz, title), "motions")
+    try:
+        write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
+    except OSError as error:
+        raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
+
+
+def _drawable(values: Float[ndarray, " T"]) -> Float[ndarray, " T"]:
+    """Return values with gaps where they are so large that an axis' arithmetic overflows."""
+    return np.where(np.abs(values) <= LARGEST, values, np.nan)
+
+
+def _figure(
+    paths: Sequence[Float[ndarray, "_ D"]],
+    names: Sequence[str],
+    channels: Sequence[tuple[str, str]],
+    rate_hz: float | None,
+    title: str,
+) -> Figure:
+    columns = min(COLUMNS, len(channels))
+    rows = ceil(len(channels) / columns)
+    figure = Figure(figsize=(WIDTH, rows * PANEL_HEIGHT + 0.9))
+    panels = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
+    few = len(paths) < MANY
+    for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
+        for i, motion in enumerate(paths):
+            panel.plot(
+                np.arange(len(motion)) / (rate_hz or 1.0),
+                _drawable(motion[:, column]),
+                color=COLOURS[i % len(COLOURS)] if few else INK,
+                linewidth=1.4 if few else 0.7,
+                alpha=1.0 if few else 0.35,
+                label=names[i] if few else None,
+            )
+        panel.set_title(f"{name} [{unit}]" if unit else name)
+        panel.grid(visible=True, color=FAINT, alpha=0.2)
+    for panel in panels[len(channels) :]:
+        panel.set_visible(False)
+    for panel in panels[max(len(channels) - columns, 0) : len(channels)]:
+        panel.set_xlabel("time [s]" if rate_hz else "row")
+        panel.tick_params(labelbottom=True)
+    if few and len(paths) > 1:
+        handles, labels = panels[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower left", ncols=4)
+    figure.suptitle(title, x=0.01, ha="left")
+    return figure

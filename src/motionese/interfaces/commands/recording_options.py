@@ -1,0 +1,128 @@
+"""Options that say how recordings are read, the same for every command that reads them."""
+
+import inspect
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import Annotated, Any
+
+import typer
+
+from motionese.errors import SettingError
+
+PANEL = "How the recordings are read"
+TEXT, TEXTS, NUMBER = str | None, list[str] | None, float | None
+
+
+def _option(
+    name: str, metavar: str, help: str, kind: Any, default: Any = None
+) -> inspect.Parameter:
+    option = typer.Option(f"--{name}", metavar=metavar, help=help, rich_help_panel=PANEL)
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
+    )
+
+
+FORMATS = "csv|npz|eipl|robomimic|lerobot|mcap"
+STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
+OPTIONS = (
+    _option("channels", "PATTERN …", "Channels to take, in this order: 'arm_*'.", TEXTS),
+    _option("exclude", "PATTERN …", "Channels to leave out.", TEXTS),
+    _option("format", FORMATS, "What SOURCE is; else found out.", TEXT),
+    _option("episode", "COLUMN", "The column of a CSV that names the episode.", TEXT),
+    _option("time", "COLUMN", "The column of a CSV that is the time.", TEXT),
+    _option("rate", "HZ", "Rows a second, where the recording does not tell.", NUMBER),
+    _option("resample", "HZ", "Rows a second to resample to.", NUMBER),
+    _option("trim", "SHARE", STILL, float, 0.0),
+    _option("nan", "refuse|gap", "What a NaN is: an error, or a gap.", str, "refuse"),
+    _option("unit", "PATTERN=UNIT …", "Units: 'arm_*=rad'.", TEXTS),
+    _option("range", "PATTERN=LOW:HIGH …", "Ranges; else the data's and a margin.", TEXTS),
+    _option("margin", "SHARE", "How far ranges reach beyond the data; 0.05.", NUMBER),
+)
+
+Command = Callable[..., None]
+
+
+def with_recording_options(*left_out: str) -> Callable[[Command], Command]:
+    """Return a decorator that gives a command these options, but for those left out.
+
+    The command takes what is given for them as `reading`, for `as_read`.
+    """
+    options = [option for option in OPTIONS if option.name not in left_out]
+
+    def decorate(command: Command) -> Command:
+        @wraps(command)
+        def called(**given: Any) -> None:
+            command(reading={option.name: given.pop(option.name) for option in options}, **given)
+
+        own = inspect.signature(command).parameters.values()
+        kept = [parameter for parameter in own if parameter.name != "reading"]
+        called.__signature__ = inspect.Signature([*kept, *options])  # type: ignore[attr-defined]
+        return called
+
+    return decorate
+
+
+def as_read(
+    *,
+    channels: Sequence[str] | None,
+    exclude: Sequence[str] | None,
+    rate: float | None,
+    resample: float | None = None,
+    unit: Sequence[str] | None = None,
+    range: Sequence[str] | None = None,
+    **others: Any,
+) -> dict[str, Any]:
+    """Return what is given for these options as `Motions.read` takes it."""
+    return {
+        "channels": separated(channels) or None,
+        "exclude": separated(exclude),
+        "rate_hz": rate,
+        "resample_hz": resample,
+        "units": read_units(unit),
+        "ranges": read_ranges(range),
+        **others,
+    }
+
+
+def separated(texts: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the parts of texts that may hold several, with commas between them."""
+    return tuple(part for text in texts or () for part in text.split(",") if part)
+
+
+def read_units(texts: Sequence[str] | None) -> dict[str, str]:
+    """Return the units of texts such as 'arm_*=rad', by pattern."""
+    return dict(_pair("--unit", text, "rad") for text in texts or ())
+
+
+def read_ranges(texts: Sequence[str] | None) -> dict[str, tuple[float, float]]:
+    """Return the ranges of texts such as 'arm_*=-1.5:1.5', by pattern."""
+    ranges = {}
+    for text in texts or ():
+        pattern, told = _pair("--range", text, "LOW:HIGH")
+        low, _, high = told.partition(":")
+        try:
+            ranges[pattern] = (float(low), float(high))
+        except ValueError as error:
+            raise SettingError(
+                f"--range {text}: a range is two numbers, as in {pattern}=-1.5:1.5"
+            ) from error
+    return ranges
+
+
+def read_values(option: str, texts: Sequence[str] | None) -> dict[str, float]:
+    """Return the numbers of texts such as 'shoulder=0.3', by name."""
+    values = {}
+    for text in separated(texts):
+        name, told = _pair(option, text, "0.3")
+        try:
+            values[name] = float(told)
+        except ValueError as error:
+            raise SettingError(f"{option} {text}: '{told}' is no number") from error
+    return values
+
+
+def _pair(option: str, text: str, example: str) -> tuple[str, str]:
+    name, equals, told = text.rpartition("=")
+    if not (name and equals and told):
+        raise SettingError(f"{option} {text}: write NAME={example}")
+    return name, told

@@ -1,0 +1,94 @@
+"""The report of a run folder, and its results in a few lines."""
+# ruff: noqa: PLC0415
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+
+from motionese.experiment import Study
+from motionese.experiment.presets import study_of
+from motionese.experiment.run_folder import run_settings
+from motionese.task import Outcome
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def write_results(folder: Path, console: Console) -> str:
+    """Write the report; print where it is, and the results.
+
+    Returns:
+        Why there was too little for a statistical test, or "".
+
+    Raises:
+        RunFolderError: No run folder, or none of its runs has ended.
+    """
+    study = study_of(run_settings(folder))
+    # A second of imports that nobody who is told of a mistake should wait for.
+    from motionese.analysis import write_report
+
+    with console.status("Writing the report …"):
+        written = write_report(folder)
+    console.print(summary(written.path.parent, study))
+    console.print(f"Report: {written.path}")
+    return str(written.too_few)
+
+
+def summary(folder: Path, study: Study) -> Table:
+    """Return imitation errors [cm], median over seeds, and what was achieved in the last loop.
+
+    Args:
+        folder: Where `loops.csv` and the tables of new sequences are.
+        study: The settings of its runs.
+    """
+    import pandas as pd
+
+    task = study.task.task()
+    loops = pd.read_csv(folder / "loops.csv")
+    novel = {name: folder / f"{name}.csv" for name in task.novel}
+    tables = {name: pd.read_csv(path) for name, path in novel.items() if path.is_file()}
+    stages = range(1, len(study.stages) + 1)
+    columns = ("loop 1", *(f"stage {n}" for n in stages), *(f"new {name}" for name in tables))
+    outcome = task.outcomes[0]
+    table = Table("condition", "seeds", *columns, f"{outcome.title}, last loop")
+    table.title = (
+        "Imitation error [cm] in loop 1, in the last loop of every stage, and of new sequences; "
+        "mean over motions, median over seeds"
+    )
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for condition in study.conditions:
+        own = loops[loops["condition"] == condition.name]
+        if own.empty:
+            continue
+        errors = [_centimetres(own[own["loop"] == 1])]
+        errors += [_centimetres(_last_loop(own[own["phase"] == n])) for n in stages]
+        errors += [_centimetres(t[t["condition"] == condition.name]) for t in tables.values()]
+        table.add_row(
+            condition.name,
+            str(own["seed"].nunique()),
+            *errors,
+            _achieved(_last_loop(own), outcome),
+        )
+    return table
+
+
+def _last_loop(rows: "pd.DataFrame") -> "pd.DataFrame":
+    """Return the rows of every seed's last loop."""
+    return rows[rows["loop"] == rows.groupby("seed")["loop"].transform("max")]
+
+
+def _centimetres(rows: "pd.DataFrame") -> str:
+    """Return the median over seeds of each seed's mean over motions."""
+    if rows.empty:
+        return "–"
+    return f"{rows.groupby('seed')['imitation_error_cm'].mean().median():.1f}"
+
+
+def _achieved(rows: "pd.DataFrame", outcome: Outcome) -> str:
+    if not outcome.of:
+        return f"{rows[outcome.column].median():.1f} {outcome.unit}"
+    done, due = int(rows[outcome.column].sum()), int(rows[outcome.of].sum())
+    return f"{done} of {due}" if due else "–"

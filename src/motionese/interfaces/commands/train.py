@@ -1,0 +1,180 @@
+"""Recordings in, a trained model out."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import jax
+from pydantic import ValidationError
+from rich.console import Console
+
+from motionese.errors import SettingError, StorageError, unknown
+from motionese.interfaces.commands.model_commands import checkpoint_of
+from motionese.interfaces.commands.motion_text import description
+from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
+from motionese.interfaces.commands.tables import error_table, verdict
+from motionese.interfaces.commands.training_display import TrainingDisplay
+from motionese.interfaces.logs.training_logs import open_logs
+from motionese.learning import Fit, Motions, Progress, Training, save, split, train
+from motionese.learning.course import epochs_done
+from motionese.network import MTRNN, Level
+
+BY_LEVEL = ("bound", "noise")
+"""Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
+MOST_UNITS = 5000
+"""Every pair of units has a weight: beyond it, no memory holds what is trained."""
+
+
+def train_model(
+    console: Console,
+    source: Path,
+    out: Path,
+    *,
+    levels: str,
+    io_tau: float,
+    held_out: str | None,
+    seed: int,
+    resume: bool,
+    settings: Training,
+    logs: Sequence[str],
+    reading: Mapping[str, Any],
+) -> Fit:
+    """Train a network on recordings, save it, and tell how good it is.
+
+    Everything is checked before anything is written.
+
+    Args:
+        console: Where it is told.
+        source: The recordings.
+        out: The model's file.
+        levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first.
+        io_tau: Time constant of the IO level [steps].
+        held_out: A share of the motions or their names, as in '0.2' or 'wave,lift'; see `split`.
+        seed: Of the initial weights, the held-out motions and the state noise.
+        resume: Whether to go on with a training that was stopped.
+        settings: How to train.
+        logs: Kinds of logs, see `logs.open_logs`.
+        reading: How, as `Motions.read` takes it.
+    """
+    checkpoint = _checkpoint(out, resume)
+    context = read_levels(levels)
+    motions = Motions.read(source, **reading)
+    learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
+    drawn, noise = jax.random.split(jax.random.key(seed))
+    network = MTRNN([Level(len(motions.channels), io_tau), *context], key=drawn)
+    done = epochs_done(checkpoint) if resume else 0
+    console.print(f"{source}: {description(motions)}")
+    console.print(
+        f"Levels io {len(motions.channels)}:{io_tau:g}, {levels}; {len(learned)} motions to learn, "
+        f"{len(unseen or ())} held out; Ctrl-C stops, --resume goes on"
+    )
+    display = TrainingDisplay(console, settings.epochs, done)
+    with open_logs(logs, out, done) as log, display:
+
+        def progress(now: Progress) -> None:
+            display.show(now)
+            numbers = {k: v for k, v in now._asdict().items() if v is not None and k != "epoch"}
+            log.write(now.epoch, numbers)
+
+        fit = train(
+            network,
+            learned,
+            settings=settings,
+            validation=unseen,
+            key=noise,
+            progress=progress,
+            checkpoint=checkpoint,
+        )
+    save(out, fit)
+    console.print(error_table(fit))
+    console.print(verdict(fit))
+    console.print(f"{fit.status}. The model is {out}")
+    if fit.status.failed:
+        raise SettingError(f"{out}: {fit.status}; train with smaller rates, --set weight_rate=0.01")
+    return fit
+
+
+def read_levels(levels: str | Sequence[tuple[int, float]]) -> list[Level]:
+    """Return the context levels that a text such as `40:5,8:70` or pairs (size, τ) stand for.
+
+    Args:
+        levels: Size and time constant [steps] of every context level, from the fast one upwards.
+
+    Raises:
+        SettingError: The text is not of that form, or a level cannot have such a size or τ.
+    """
+    try:
+        given = map(_size_and_tau, levels.split(",")) if isinstance(levels, str) else levels
+        pairs = [(size, float(tau)) for size, tau in given]
+    except (TypeError, ValueError) as error:
+        raise SettingError(
+            f"levels must be given as SIZE:TAU,SIZE:TAU such as 40:5,8:70, got {levels!r}"
+        ) from error
+    units = sum(size for size, _ in pairs if isinstance(size, int))
+    if units > MOST_UNITS:
+        raise SettingError(f"levels of {units} units in all; at most {MOST_UNITS} can be trained")
+    return [Level(size, tau) for size, tau in pairs]
+
+
+def read_training(epochs: int | None, patience: int | None, overrides: Sequence[str]) -> Training:
+    """Return the settings of training of texts such as 'weight_rate=0.02'.
+
+    Raises:
+        SettingError: A setting that does not exist, or a value that is not allowed.
+    """
+    given: dict[str, Any] = {
+        name: value
+        for name, value in (("epochs", epochs), ("patience", patience))
+        if value is not None
+    }
+    for text in overrides:
+        name, _, told = text.partition("=")
+        if name not in Training.model_fields:
+            raise SettingError(unknown("setting", name, Training.model_fields))
+        given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
+    try:
+        return Training(**given)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = str(first["loc"][0])
+        what = first["msg"][:1].lower() + first["msg"][1:]
+        raise SettingError(f"setting {name} = {given[name]!r}: {what}") from error
+
+
+def read_held_out(text: str | None, motions: Motions) -> float | list[str] | None:
+    """Return the share or the names that a text is; below 1 a number is always a share."""
+    if text is None:
+        return None
+    try:
+        share = float(text)
+    except ValueError:
+        share = None
+    if share is not None and (0 <= share < 1 or text not in motions.names):
+        return share
+    return [name.strip() for name in text.split(",")]
+
+
+def _size_and_tau(text: str) -> tuple[int, float]:
+    size, tau = text.split(":")
+    return int(size), float(tau)
+
+
+def _by_level(told: str) -> dict[str, str]:
+    """Return the values of a text such as 'cf:5,cs:2' by level."""
+    parts = (part.partition(":") for part in told.split(","))
+    return {level: value for level, _, value in parts}
+
+
+def _checkpoint(out: Path, resume: bool) -> Path:
+    """Return where training is kept, after checking that it may be begun, or gone on with."""
+    check_output("--out", out, (MODEL_SUFFIX,))
+    checkpoint = checkpoint_of(out)
+    if resume and not checkpoint.exists():
+        ended = "; it has ended, the model is there" if out.exists() else ""
+        raise StorageError(f"--resume: there is no training to go on with at {checkpoint}{ended}")
+    if checkpoint.exists() and not resume:
+        raise StorageError(
+            f"{checkpoint}: a training of this model was stopped; go on with it with --resume, "
+            "or remove the file to begin afresh"
+        )
+    return checkpoint

@@ -1,0 +1,166 @@
+"""Where training is logged: lines of JSON, TensorBoard, Rerun; several at once if asked for.
+
+A log lies beside the model that is trained, OUT: `robot.safetensors` is logged to
+`robot.log.jsonl`, `robot.tensorboard/` and `robot.rrd`. Every number is on disk when `write`
+returns (TensorBoard's within a second), so that a training that is killed leaves what it told.
+"""
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from types import TracebackType
+from typing import Protocol, runtime_checkable
+
+from motionese.errors import SettingError, needs, unknown
+from motionese.files import write_whole
+from motionese.interfaces.logs.rerun_log import Rerun
+
+
+@runtime_checkable
+class Log(Protocol):
+    """What takes numbers while a network is trained."""
+
+    def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
+        """Write numbers by name, as they are after `epoch` epochs."""
+
+    def close(self) -> None:
+        """Finish the log; nothing is written to it afterwards."""
+
+
+class Logs:
+    """Several logs written side by side; a context manager that closes them.
+
+    They are opened with the first numbers: a training that is refused leaves none, and none of a
+    training before it is lost.
+    """
+
+    def __init__(self, openers: Sequence[Callable[[], Log]]) -> None:
+        self._openers = list(openers)
+        self._logs: list[Log] = []
+
+    def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
+        """Write numbers by name to every log, as they are after `epoch` epochs.
+
+        Raises:
+            StorageError: A log that cannot be gone on with.
+        """
+        while self._openers:
+            self._logs.append(self._openers.pop(0)())
+        for log in self._logs:
+            log.write(epoch, numbers)
+
+    def close(self) -> None:
+        """Finish every log, whatever happens to another."""
+        with ExitStack() as closing:
+            for log in self._logs:
+                closing.callback(log.close)
+
+    def __enter__(self) -> "Logs":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
+    """Return the logs of a training, whose files are opened with the first numbers.
+
+    Args:
+        kinds: Of `jsonl`, `tensorboard` (extra `[tensorboard]`) and `rerun` (extra `[rerun]`).
+        out: The model's file; logs are called after it and lie beside it.
+        after: Epochs that were trained before a training that is resumed: its logs go on, and
+            forget what they hold of later epochs. 0 begins them anew.
+
+    Raises:
+        SettingError: An unknown kind.
+        MissingPackageError: A kind's package is not installed.
+    """
+    for kind in kinds:
+        if kind not in _OPENERS:
+            raise SettingError(unknown("log", kind, _OPENERS))
+    for kind in kinds:
+        if kind in _PACKAGES:
+            _import(*_PACKAGES[kind], kind)
+    return Logs([partial(_OPENERS[kind], out, after) for kind in dict.fromkeys(kinds)])
+
+
+class JsonLines:
+    """One JSON object a line: the epoch and the numbers; null where a number is not finite."""
+
+    def __init__(self, out: Path, after: int) -> None:
+        path = out.with_name(f"{out.stem}.log.jsonl")
+        kept = _lines_until(path, after) if after and path.exists() else []
+        write_whole(path, "".join(kept))
+        self._file = path.open("a", encoding="utf-8")
+
+    def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
+        """Write one line."""
+        finite = {k: float(v) if math.isfinite(v) else None for k, v in numbers.items()}
+        self._file.write(json.dumps({"epoch": epoch} | finite) + "\n")
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+
+def _lines_until(path: Path, epoch: int) -> list[str]:
+    """Return a log's lines up to an epoch, without one that a kill has cut short."""
+    kept = []
+    for line in path.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True):
+        try:
+            told = json.loads(line)["epoch"]
+        except (ValueError, TypeError, KeyError):
+            continue
+        if line.endswith("\n") and told <= epoch:
+            kept.append(line)
+    return kept
+
+
+class TensorBoard:
+    """Scalars by name in TensorBoard's event files."""
+
+    def __init__(self, out: Path, after: int) -> None:
+        # Event files are called after the second they are opened in; the suffix keeps a training
+        # resumed within that second from overwriting what it goes on with.
+        self._writer = import_module("tensorboardX").SummaryWriter(
+            str(out.with_name(f"{out.stem}.tensorboard")),
+            purge_step=after + 1 if after else 0,
+            filename_suffix=f".{after:09d}",
+            flush_secs=1,
+        )
+
+    def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
+        """Write one scalar a number, with the epoch as its step."""
+        for name, number in numbers.items():
+            self._writer.add_scalar(name, number, epoch)
+
+    def close(self) -> None:
+        """Close the event file."""
+        self._writer.close()
+
+
+_OPENERS: dict[str, Callable[[Path, int], Log]] = {
+    "jsonl": JsonLines,
+    "tensorboard": TensorBoard,
+    "rerun": Rerun,
+}
+
+_PACKAGES = {"tensorboard": ("tensorboardX", "tensorboardX"), "rerun": ("rerun", "rerun-sdk")}
+"""The module that a kind imports and the package that brings it; its extra is called as it is."""
+
+
+def _import(module: str, package: str, kind: str) -> None:
+    try:
+        import_module(module)
+    except ImportError as error:
+        raise needs(package, kind, f"the log '{kind}'") from error

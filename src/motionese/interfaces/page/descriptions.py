@@ -1,0 +1,233 @@
+"""What the page is told: the messages of the robot's process, made of what it knows."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.body import Geometry
+from motionese.caregiver import intended_way
+from motionese.imitation import Scene
+from motionese.interfaces.page.messages import Answer
+from motionese.learning import Progress
+from motionese.network import MTRNN
+from motionese.task import PrimitiveSequence, Task
+from motionese.teaching.frames import Film
+from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.notebook import Entry
+from motionese.teaching.session import Change, Observation, Teaching, Trial
+from motionese.teaching.view import ASPECT, View
+
+DIGITS = 4
+PART_S = 0.2
+"""Frames are sent in parts of so many seconds, each when it is due."""
+
+
+def scene_message(scene: Scene, view: View, geometry: Geometry) -> Answer:
+    """Return what does not change in a session: the view, the robot's shapes, the task."""
+    right, up, ahead = view.axes
+    task, body = scene.task, scene.body
+    return {
+        "type": "scene",
+        "view": {
+            "aspect": ASPECT,
+            "camera": {
+                "position": listed(body.eye_position),
+                "right": listed(right),
+                "up": listed(up),
+                "ahead": listed(ahead),
+                "fov_y_deg": round(float(np.degrees(view.height)), 2),
+            },
+        },
+        "robot": {
+            "bodies": geometry.bodies,
+            "geoms": geometry.shapes,
+            "pose": listed(geometry.placed(body.pose()[None]).ravel()),
+            "joints": body.joints,
+        },
+        "task": _task(task, view),
+        "levels": [
+            {"name": level.name, "size": level.size, "tau": level.tau}
+            for level in scene.settings.network.drawn_levels(body.channels)
+        ],
+        "rate_hz": body.rate_hz,
+    }
+
+
+def _task(task: Task, view: View) -> Answer:
+    """Return places in the view, primitives, effects and where they come about, sequences."""
+    return {
+        "places": {
+            name: {"at": listed(view.of_points(task.position(name))), "title": place.title}
+            for name, place in task.places.items()
+        },
+        "primitives": [
+            {
+                "sign": primitive.sign,
+                "start": primitive.start,
+                "end": primitive.end,
+                "words": primitive.words,
+                "way": listed(view.of_points(intended_way(PrimitiveSequence((primitive,)), task))),
+            }
+            for primitive in task.primitives
+        ],
+        "effects": [
+            {
+                "name": effect,
+                "title": effect.replace("_", " "),
+                "places": [p.end for p in task.primitives if p.effect == effect],
+            }
+            for effect in task.effects
+        ],
+        "motions": [s.name for length in (1, 2, 3) for s in task.sequences(length)],
+    }
+
+
+def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Answer:
+    """Return where the session stands."""
+    notebook, levels = teaching.notebook, teaching.learner.network.levels
+    learned = {each.entry for each in notebook.learned}
+    entries = [
+        {
+            "entry": entry.number,
+            "motion": entry.motion,
+            "source": entry.source,
+            "errors": [round(error, 2) for error in entry.errors_cm],
+            "learned": entry.number in learned,
+        }
+        for entry in notebook.entries
+    ]
+    last = f"{notebook.curve[-1]:.1f} cm" if notebook.curve else ""
+    suggestion = (
+        f"Learning has settled (the last error was {last}): let the network grow a slow level, "
+        "and show sequences."
+    )
+    return {
+        "type": "session",
+        "id": name,
+        "began": began,
+        "phase": len(levels) - 1,
+        "levels": [level.name for level in levels],
+        "notebook": entries,
+        "curve": [
+            {"n": n, "error_cm": round(error, 2)} for n, error in enumerate(notebook.curve, start=1)
+        ],
+        "can_grow": teaching.can_grow,
+        "can_map": InteractiveMap.possible(teaching),
+        "shown": teaching.observed.entry.number if teaching.observed else None,
+        "suggest": suggestion if teaching.should_grow else "",
+        "busy": busy,
+    }
+
+
+def verdict_message(observed: Observation, view: View, seconds: float) -> Answer:
+    """Return the verdict on a demonstration, `seconds` after it had ended."""
+    verdict = observed.verdict
+    return {
+        "type": "verdict",
+        "entry": observed.entry.number,
+        "motion": named(verdict.recognised),
+        "shown": named(verdict.shown),
+        "confidence": round(verdict.confidence, DIGITS),
+        "alternatives": [
+            {"motion": sequence.name, "confidence": round(confidence, DIGITS)}
+            for sequence, confidence in verdict.alternatives
+        ],
+        "path": listed(view.of_points(observed.interpretation.path)),
+        "drawn": listed(view.of_points(observed.watched.path)),
+        "next": listed(view.of_points(observed.interpretation.next)),
+        "error_cm": round(verdict.error_cm, 2),
+        "sentence": verdict.sentence,
+        "ms": round(1000 * seconds),
+    }
+
+
+def shown_message(
+    sequence: PrimitiveSequence, seen: Float[ndarray, "T 2"], step_ms: float
+) -> Answer:
+    """Return how the scripted caregiver shows a sequence, seen in the view."""
+    path = [[round(step_ms * row), *place] for row, place in enumerate(listed(seen))]
+    return {"type": "shown", "motion": sequence.name, "path": path}
+
+
+def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -> Answer:
+    """Return how a performance went, its hand seen in the view."""
+    effects = trial.performance.effects.items()
+    return {
+        "type": "performed",
+        "entry": entry.number,
+        "error_cm": round(trial.error_cm, 2),
+        "effects": {name: round(float(values.max()), 1) for name, values in effects},
+        "attempt": len(entry.errors_cm),
+        "path": listed(seen),
+    }
+
+
+def frames_message(played: Film, tell: Callable[[Answer], None]) -> Iterator[float]:
+    """Send a film part by part; yields how long [s] to wait before the next."""
+    size = round(PART_S * played.rate_hz)
+    began = time.monotonic()
+    for row in range(0, len(played), size):
+        last = row + size >= len(played)
+        frames = {"from": row, "rate_hz": played.rate_hz, "last": last}
+        tell({"type": "frames", **frames, **played.part(row, row + size)})
+        yield max(0.0, began + (row + size) / played.rate_hz - time.monotonic())
+
+
+def learned_message(entry: int, change: Change, curve: Sequence[float]) -> Answer:
+    """Return what a learning has brought."""
+    return {
+        "type": "learned",
+        "entry": entry,
+        "before_cm": round(change.before_cm, 2),
+        "after_cm": round(change.after_cm, 2),
+        "curve": {"n": len(curve), "error_cm": round(curve[-1], 2)},
+    }
+
+
+def grown_message(changes: Sequence[Change], network: MTRNN) -> Answer:
+    """Return what growth has brought: the same imitations before and after."""
+    return {
+        "type": "grown",
+        "before": [{"motion": c.motion, "cm": round(c.before_cm, 2)} for c in changes],
+        "after": [{"motion": c.motion, "cm": round(c.after_cm, 2)} for c in changes],
+        "levels": [level.name for level in network.levels],
+    }
+
+
+def progress_message(what: str, done: int, of: int, now: Progress | None = None) -> Answer:
+    """Return how far something is."""
+    told: Answer = {"type": "progress", "what": what, "done": done, "of": of}
+    if now is not None:
+        told |= {"loss": round(now.loss, DIGITS), "error_share": round(now.closed_loop_error, 5)}
+    return told
+
+
+def map_message(drawn: InteractiveMap) -> Answer:
+    """Return the map of the slow initial states."""
+    points = [{"motion": motion, "slow": slow} for motion, slow in drawn.points]
+    return {
+        "type": "map",
+        "level": drawn.level,
+        "axis": drawn.axis,
+        "primitives": drawn.grids,
+        "points": points,
+    }
+
+
+def sentence_message(kind: str, sentence: str) -> Answer:
+    """Return a sentence for the person: a hint, a refusal or an error."""
+    return {"type": "told", "kind": kind, "sentence": sentence}
+
+
+def named(sequence: PrimitiveSequence | None) -> str:
+    """Return a sequence's name; empty if there is none."""
+    return sequence.name if sequence else ""
+
+
+def listed(values: Float[ndarray, "*shape"]) -> list[Any]:
+    """Return an array as lists of rounded numbers."""
+    return list(np.round(values, DIGITS).tolist())

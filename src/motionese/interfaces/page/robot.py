@@ -1,0 +1,295 @@
+"""The robot in its process: what it does when it is told to, and what it tells."""
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from jaxtyping import Float
+from numpy import ndarray
+
+from motionese.body import Geometry
+from motionese.errors import MotioneseError, TaskError
+from motionese.experiment import read_settings
+from motionese.experiment.robot import robot_of
+from motionese.imitation import BABBLING, Scene, generator_for
+from motionese.interfaces.page import descriptions
+from motionese.interfaces.page.descriptions import frames_message
+from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.pen import Pen
+from motionese.learning import Progress
+from motionese.teaching.drawing import DrawingError, most_rows
+from motionese.teaching.frames import film
+from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.notebook import Source
+from motionese.teaching.session import Teaching, Trial
+from motionese.teaching.session_folder import FRESH, SessionFolder
+from motionese.teaching.view import View
+
+GHOST_S = 0.2
+"""While the scripted caregiver shows, what is understood is told this often."""
+NOTHING_SHOWN = "Show me a motion first: draw one, or let the caregiver show one."
+
+
+def open_session(folder: SessionFolder, begin: str) -> Teaching:
+    """Return the session of a folder, or one that begins there.
+
+    Args:
+        folder: The folder.
+        begin: "babbling", "fresh" or the path of a run; empty for what is there, or babbling.
+
+    Raises:
+        StorageError: What is in the folder is no session, or it began from something else.
+        RunFolderError: No such run.
+    """
+    if folder.exists:
+        return folder.read(begin)
+    if begin in ("", BABBLING, FRESH):
+        return folder.begin(begin or BABBLING, Scene(read_settings(), 0))
+    robot = robot_of(Path(begin))
+    return folder.begin(begin, Scene(robot.settings, robot.seed), robot.learner)
+
+
+class StoppedError(Exception):
+    """Learning was stopped by the person."""
+
+
+class Robot:
+    """Does one thing after the other; what takes time is a generator that yields waiting times.
+
+    Attributes:
+        going: What is under way, or None.
+    """
+
+    def __init__(
+        self,
+        folder: SessionFolder,
+        teaching: Teaching,
+        tell: Callable[[Answer], None],
+        stop_asked: Callable[[], bool],
+    ) -> None:
+        """Serve a session; `stop_asked` says, while the network learns, whether to stop."""
+        self._folder, self._tell, self._stop_asked = folder, tell, stop_asked
+        body = teaching.scene.body
+        self._view, self._geometry = View(body, teaching.scene.task), Geometry(body.model)
+        self.going: Iterator[float] | None = None
+        self._busy = ""
+        self._map: InteractiveMap | None = None
+        self._become(teaching)
+
+    def _become(self, teaching: Teaching) -> None:
+        self.teaching = teaching
+        self.pen = Pen(teaching, self._view, self._tell)
+        self._map = None
+
+    def introduce(self) -> None:
+        """Tell what the page needs to begin with."""
+        scene = self.teaching.scene
+        rest = next(iter(scene.postures.values()))
+        scene.body.reset(rest, generator_for(scene.seed, "rest"))
+        self._tell(descriptions.scene_message(scene, self._view, self._geometry))
+        self.tell_session()
+
+    def tell_session(self, busy: str | None = None) -> None:
+        """Tell where the session stands."""
+        self._busy = self._busy if busy is None else busy
+        folder = self._folder
+        self._tell(descriptions.session_message(self.teaching, folder.id, folder.began, self._busy))
+
+    def take(self, message: dict[str, Any]) -> None:
+        """Do what a message says, or begin to."""
+        kind = message["type"]
+        if kind == "pen":
+            self._draw(message)
+        elif kind == "stop":
+            self._end()
+        elif kind == "left":
+            self.pen.lift()
+        elif kind == "hover":
+            self._hover(message)
+        elif self._busy:
+            self._hint(f"I am {self._busy}; wait a moment, or stop me.")
+        else:
+            self.going = self._begun(kind)(message)
+
+    def _begun(self, kind: str) -> Callable[[dict[str, Any]], Iterator[float]]:
+        return {
+            "demonstrate": self._demonstrate,
+            "imitate": self._imitate,
+            "learn": self._learn,
+            "forget": self._forget,
+            "grow": self._grow,
+            "map": self._draw_map,
+            "begin": self._begin,
+        }[kind]
+
+    def go_on(self) -> float | None:
+        """Go on with what is under way; return how long to wait before it goes on, or None."""
+        if self.going is None:
+            return None
+        try:
+            return next(self.going)
+        except StopIteration:
+            self._end()
+        except StoppedError:
+            self._hint("Stopped: I am as I was before.")
+            self._end()
+        except MotioneseError as error:
+            self._tell(descriptions.sentence_message("error", str(error)))
+            self._end()
+        return None
+
+    def _end(self) -> None:
+        self.going = None
+        if self._busy:
+            self.tell_session("")
+
+    def _hint(self, sentence: str) -> None:
+        self._tell(descriptions.sentence_message("hint", sentence))
+
+    def _draw(self, message: dict[str, Any]) -> None:
+        if message["phase"] == "down":
+            if self._busy:
+                self._hint(f"I am {self._busy}; wait a moment, or stop me.")
+                return
+            self.pen.set_down(message["source"])
+        self.pen.move(message["points"])
+        if message["phase"] == "up" and self.pen.down:
+            hint = ""
+            try:
+                path, drawn, hint = self.pen.finished()
+                self._show(path, drawn, self.pen.source, message["received"])
+            except DrawingError as error:
+                hint = str(error)
+            except MotioneseError as error:
+                self._tell(descriptions.sentence_message("error", str(error)))
+            if hint:
+                self._hint(hint)
+
+    def _show(
+        self,
+        path: Float[ndarray, "T 3"],
+        drawn: Float[ndarray, "R 3"],
+        source: Source,
+        ended: float,
+    ) -> None:
+        observed = self.teaching.show(path, source, drawn, self.pen.understood)
+        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - ended))
+        self._save()
+
+    def _save(self) -> None:
+        self._folder.save(self.teaching)
+        self.tell_session()
+
+    def _demonstrate(self, message: dict[str, Any]) -> Iterator[float]:
+        scene = self.teaching.scene
+        manner = scene.settings.caregiver
+        try:
+            sequence = scene.task.sequence(message["motion"])
+            if manner.rows(sequence) > most_rows(manner):
+                raise TaskError(f"{sequence.name} is too long to be shown")
+        except TaskError as error:
+            self._tell(descriptions.sentence_message("refusal", str(error)))
+            return
+        self.tell_session("demonstrating")
+        rng = generator_for(scene.seed, "shown", self.teaching.notebook.next)
+        path = scene.caregiver().demonstrate(sequence, rng).path
+        step = 1000 / scene.body.rate_hz
+        self._tell(descriptions.shown_message(sequence, self._view.of_points(path), step))
+        self.pen.lift()
+        self.pen.begin()
+        rows = round(GHOST_S * scene.body.rate_hz)
+        for row in range(rows, len(path), rows):
+            yield GHOST_S
+            self.pen.tell_understood(path[:row], round(step * row))
+        yield GHOST_S
+        self._show(path, path, "scripted", time.monotonic())
+
+    def _imitate(self, message: dict[str, Any]) -> Iterator[float]:
+        if self.teaching.observed is None:
+            self._hint(NOTHING_SHOWN)
+            return
+        self.tell_session("performing")
+        yield from self._perform(self.teaching.imitate())
+
+    def _perform(self, trial: Trial) -> Iterator[float]:
+        teaching = self.teaching
+        observed = teaching.observed
+        assert observed is not None, "only what was shown is imitated"
+        self._save()
+        network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
+        played = film(self._geometry, network, trial.performance, rate_hz)
+        yield from frames_message(played, self._tell)
+        path = self._view.of_points(trial.performance.path)
+        self._tell(descriptions.performed_message(observed.entry, trial, path))
+
+    def _learn(self, message: dict[str, Any]) -> Iterator[float]:
+        observed = self.teaching.observed
+        if observed is None:
+            self._hint(NOTHING_SHOWN)
+            return
+        self.tell_session("learning")
+        yield 0.0
+        change = self._unless_stopped(lambda: self.teaching.learn(self._progress("learning")))
+        self._map = None
+        self._save()
+        curve = self.teaching.notebook.curve
+        self._tell(descriptions.learned_message(observed.entry.number, change, curve))
+
+    def _grow(self, message: dict[str, Any]) -> Iterator[float]:
+        if not self.teaching.can_grow:
+            self._hint("All levels are open already.")
+            return
+        self.tell_session("growing")
+        yield 0.0
+        changes = self._unless_stopped(lambda: self.teaching.grow(self._progress("growing")))
+        self._map = None
+        self._save()
+        self._tell(descriptions.grown_message(changes, self.teaching.learner.network))
+
+    def _unless_stopped(self, change: Callable[[], Any]) -> Any:
+        """Do what changes the session; a person who stops it finds all as it was before."""
+        before = self.teaching.standing
+        try:
+            return change()
+        except (StoppedError, MotioneseError):
+            self.teaching.return_to(before)
+            raise
+
+    def _progress(self, what: str) -> Callable[[int, int, Progress], None]:
+        def report(done: int, of: int, now: Progress) -> None:
+            self._tell(descriptions.progress_message(what, done, of, now))
+            if self._stop_asked():
+                raise StoppedError
+
+        return report
+
+    def _forget(self, message: dict[str, Any]) -> Iterator[float]:
+        said = self.teaching.forget(message["entry"], self._folder.learner)
+        self._map = None
+        self._save()
+        self._hint(said or "This entry is not in the notebook any more.")
+        yield 0.0
+
+    def _draw_map(self, message: dict[str, Any]) -> Iterator[float]:
+        if not InteractiveMap.possible(self.teaching):
+            self._hint("There is no slow level yet: let the network grow first.")
+            return
+        self.tell_session("drawing the map")
+        yield 0.0
+        self._map = self._map or InteractiveMap(self.teaching)
+        self._tell(descriptions.map_message(self._map))
+
+    def _begin(self, message: dict[str, Any]) -> Iterator[float]:
+        self.tell_session("beginning anew")
+        yield 0.0
+        self._become(self._folder.begin_anew(message["with"], self.teaching))
+        self._tell({"type": "begun"})
+        self._hint("A new robot. The session before is kept in the session's folder.")
+
+    def _hover(self, message: dict[str, Any]) -> None:
+        if self._map is None or self._busy:
+            return
+        path = self._map.motion(message["primitive"], message["slow"])
+        if path is not None:
+            self._tell({"type": "hovered", "path": descriptions.listed(self._view.of_points(path))})

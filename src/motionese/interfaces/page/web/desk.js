@@ -1,0 +1,123 @@
+// The desk around the view: the one line, buttons and what they do, and passing messages.
+
+import { made, part, say } from "./dom.js";
+import { guide } from "./guide.js";
+import { showNetwork } from "./network.js";
+import { read } from "./task.js";
+
+const TOAST_MS = 7000;
+/** What takes long enough for a bar, and can be stopped. */
+const LONG = ["learning", "growing"];
+const PHASES = { 1: "Phase 1: single strokes", 2: "Phase 2: sequences" };
+
+/** Let every button do what it is for; `touched()` is called before. */
+export function furnish(send, touched, takeOver) {
+  const pressed = {
+    demonstrate: () => send({ type: "demonstrate", motion: part("motions").value }),
+    imitate: () => send({ type: "imitate" }),
+    learn: () => send({ type: "learn" }),
+    grow: () => send({ type: "grow" }),
+    "map-draw": () => send({ type: "map" }),
+    stop: () => send({ type: "stop" }),
+    begin: () => part("begin-dialog").showModal(),
+    "take-over": takeOver,
+  };
+  for (const [id, act] of Object.entries(pressed)) {
+    part(id).addEventListener("click", () => {
+      touched();
+      act();
+    });
+  }
+  part("begin-dialog").addEventListener("close", () => {
+    const chosen = part("begin-dialog").returnValue;
+    part("begin-dialog").returnValue = "";
+    if (chosen) send({ type: "begin", with: chosen });
+  });
+}
+
+/** Offer the motions that can be shown by themselves. */
+export function listMotions(motions) {
+  const groups = ["One stroke", "Two strokes", "Three strokes"].map((label, i) => {
+    const those = motions.filter((motion) => read(motion).signs.length === i + 1);
+    return made(
+      "optgroup",
+      "",
+      those.map((m) => made("option", "", m, { value: m })),
+      { label },
+    );
+  });
+  part("motions").replaceChildren(...groups.filter((group) => group.children.length));
+}
+
+/** Bring the desk up to date with the state of everything. */
+export function tidy(now) {
+  const { session, scene } = now;
+  const open = now.connection === "open";
+  document.body.dataset.state = !open ? "lost" : now.ready ? "ready" : "connecting";
+  say(part("connection"), connectionInWords(now, open));
+  say(part("phase"), PHASES[session.phase] ?? `Phase ${session.phase}`);
+  say(part("guide"), guide(now));
+  say(part("network-note"), session.suggest || "Levels, from fast to slow.");
+  const free = now.ready && !session.busy && !now.drawing;
+  const enabled = {
+    motions: free,
+    demonstrate: free,
+    begin: free,
+    webcam: now.watching,
+    "webcam-show": now.watching,
+    imitate: free && session.shown !== null,
+    learn: free && session.shown !== null,
+    grow: free && session.can_grow,
+    "map-draw": free && session.can_map,
+    stop: Boolean(session.busy),
+  };
+  for (const [id, on] of Object.entries(enabled)) part(id).disabled = !on;
+  part("imitate").classList.toggle("next", now.step === "judged");
+  part("learn").classList.toggle("next", now.step === "performed");
+  part("grow").classList.toggle("next", Boolean(session.suggest));
+  part("progress").classList.toggle("on", LONG.includes(session.busy));
+  for (const line of part("legend").children) line.hidden = !now.lines[line.className];
+  part("legend").hidden = !Object.values(now.lines).some(Boolean);
+  part("notebook-empty").hidden = session.notebook.length > 0;
+  offerExport(session.notebook.length > 0);
+  if (scene) showNetwork(part("network"), scene.levels, session.levels);
+}
+
+/** A link without an address can be neither pressed nor reached by keys. */
+function offerExport(isOffered) {
+  const link = part("export");
+  link.setAttribute("aria-disabled", String(!isOffered));
+  if (isOffered) link.setAttribute("href", "export.npz");
+  else link.removeAttribute("href");
+}
+
+function connectionInWords(now, open) {
+  if (!open) return "No connection";
+  if (!now.yours) return "Taught on another page";
+  return now.ready ? "The robot is awake" : "The robot is waking up";
+}
+
+/** Show how far something is. */
+export function showProgress({ what, done, of, loss }) {
+  part("progress-bar").value = of ? done / of : 0;
+  const reached = loss === undefined ? "" : ` · loss ${loss.toPrecision(2)}`;
+  say(part("progress-text"), `${what} ${done} of ${of}${reached}`);
+}
+
+let toasting;
+
+/** Say something for a few seconds. */
+export function tell(sentence) {
+  if (!sentence) return;
+  clearTimeout(toasting);
+  part("toast").hidden = false;
+  say(part("toast"), sentence);
+  toasting = setTimeout(() => (part("toast").hidden = true), TOAST_MS);
+}
+
+/** Say what keeps the page from its robot; nothing where nothing does. */
+export function notice(sentence, mayTakeOver = false) {
+  part("notice").hidden = !sentence;
+  say(part("notice-text"), sentence);
+  part("take-over").hidden = !mayTakeOver;
+}

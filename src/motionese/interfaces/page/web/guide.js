@@ -1,0 +1,64 @@
+// The one line that says what to do now.
+
+import { primitivesOf, read } from "./task.js";
+
+const BUSY = {
+  recognising: "It is thinking about what it saw …",
+  performing: "Watch it try.",
+  learning: "It is practising what it did. This takes a moment.",
+  growing: "A slow level is growing.",
+  demonstrating: "Watch the red hand: the robot is watching it, too.",
+  "drawing the map": "It is trying out every slow state.",
+  "beginning anew": "A new robot is babbling: it moves its arm and sees what comes of it.",
+};
+
+/** An imitation that misses by less is good: the hand of a person who shows it is no steadier. */
+const WELL_CM = 2;
+
+const KEYS = {
+  choosing: "Arrow keys choose the place to start from. Space begins.",
+  planning: "Arrow keys draw from place to place. Enter finishes, Escape gives up.",
+};
+
+/** Return the invitation to show a motion. */
+function invitation(motion, first, short = false) {
+  const strokes = primitivesOf(motion);
+  if (!strokes.length) return "Show it a motion.";
+  const way = strokes.map(({ words, end }) => `${words} to ${end}`).join(", then ");
+  if (first) return `Press on the red ball and draw it ${way}.`;
+  return `${short ? "Next" : "Show it more"}: press on ${read(motion).start} and draw ${way}.`;
+}
+
+/** Return what to do now, from the state of everything. */
+export function guide(now) {
+  const { worker, busy, step, performed, learned, suggest, next } = now;
+  if (now.connection !== "open") return "Waiting for the robot …";
+  if (!now.yours) return "This robot is being taught on another page.";
+  if (!now.watching) return worker.sentence || "The robot is waking up …";
+  if (now.drawing && now.webcam) return "Move the red thing, and press Stop showing at the end.";
+  if (now.drawing) return "Go on, and lift when the motion is done.";
+  if (now.webcam) return "Hold something red before the camera, then press Start showing.";
+  if (now.ghost) return "Watch the red hand: the robot is watching it, too.";
+  if (busy) return BUSY[busy] ?? "One moment …";
+  if (now.keyed === "planning" || (now.keyed && !step)) return KEYS[now.keyed];
+  if (step === "judged") return judged(now.verdict);
+  if (step === "performed") {
+    return `It missed by ${cm(performed.error_cm)}. Press Learn this to let it practise.`;
+  }
+  if (suggest) return suggest;
+  if (step === "learned") return `${outcome(learned)} ${invitation(next, false, true)}`;
+  return invitation(next, now.first);
+}
+
+function judged({ sentence, motion, confidence }) {
+  const isSure = motion && confidence > 0.5;
+  return `“${sentence}” ${isSure ? "Press Imitate to see it try." : "Press Learn this to teach it."}`;
+}
+
+function outcome({ before_cm: before, after_cm: after }) {
+  if (after < before) return `Its error fell from ${before.toFixed(1)} to ${cm(after)}.`;
+  if (after < WELL_CM) return `Its error is ${cm(after)}: it does this well.`;
+  return `Its error is ${cm(after)}; more examples will help.`;
+}
+
+const cm = (value) => `${value.toFixed(1)} cm`;

@@ -1,0 +1,300 @@
+// The page: what arrives goes to the parts that show it, what a person does goes to the robot.
+
+import { Curve } from "./charts.js";
+import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
+import { onScheme, part, say } from "./dom.js";
+import { Ghost } from "./ghost.js";
+import { Live } from "./live.js";
+import { SlowMap } from "./map.js";
+import { showGrown, showNotebook } from "./notebook.js";
+import { pathAlong } from "./paths.js";
+import { Pace } from "./playing.js";
+import { Showing } from "./showing.js";
+import { Stage } from "./stage.js";
+import { primitivesOf, read, takeTask, task } from "./task.js";
+import { clearVerdict, showUnderstanding, showVerdict } from "./verdict.js";
+import { View } from "./view.js";
+
+const now = {
+  connection: "lost",
+  yours: true,
+  worker: { state: "starting", sentence: "" },
+  scene: null,
+  session: {
+    id: "",
+    notebook: [],
+    curve: [],
+    phase: 1,
+    levels: [],
+    busy: "",
+    suggest: "",
+    shown: null,
+    can_grow: false,
+    can_map: false,
+  },
+  step: "",
+  verdict: null,
+  performed: null,
+  learned: null,
+  touched: false,
+  pending: null,
+  understandings: 0,
+};
+
+const send = (message) => live.send(message);
+const view = new View({ ground: part("ground"), ink: part("ink"), surface: part("surface") });
+const ghost = new Ghost(view, new Pace(24));
+const stage = new Stage(() => view.refresh());
+const curve = new Curve(part("chart-curve"));
+const map = new SlowMap(
+  part("map"),
+  part("map-primitive"),
+  (slow, primitive) => send({ type: "hover", slow, primitive }),
+  () => view.mark({ hovered: null }),
+);
+const showing = new Showing(view, {
+  may() {
+    if (canWatch() && now.session.busy) tell("One moment: the robot is busy. You can press Stop.");
+    return canWatch() && !now.session.busy;
+  },
+  send,
+  tell,
+  began,
+  ended,
+  touched,
+  changed: refresh,
+});
+const live = new Live((message) => {
+  heard[message.type]?.(message);
+  refresh();
+}, connectionChanged);
+
+/** What is done with every kind of message. */
+const heard = {
+  scene(message) {
+    now.scene = message;
+    takeTask(message.task, message.view.aspect);
+    stage.take(message);
+    view.take((width, height) => stage.seen(message.view.camera, width, height));
+    listMotions(message.task.motions);
+  },
+  session(message) {
+    if (message.id !== now.session.id) beginAnew();
+    now.session = message;
+    curve.show(message.curve);
+    showNotebook(part("notebook"), message.notebook, (entry) => send({ type: "forget", entry }));
+  },
+  understanding(message) {
+    now.understandings += 1;
+    if (!showing.drawing && !ghost.plays) return;
+    showUnderstanding(message);
+    view.mark({ recognised: message.path, next: message.next });
+  },
+  shown({ path }) {
+    touched();
+    clearResult();
+    ghost.play(path, () => {
+      judge();
+      refresh();
+    });
+  },
+  verdict(message) {
+    now.verdict = now.pending = message;
+    if (!ghost.plays) judge();
+  },
+  frames(message) {
+    stage.perform(message);
+  },
+  performed(message) {
+    now.performed = message;
+    now.step = "performed";
+    view.mark({ recognised: null, next: null, done: message.path });
+    say(part("attempt"), `Attempt ${message.attempt}: ${message.error_cm.toFixed(1)} cm off`);
+  },
+  progress: showProgress,
+  learned(message) {
+    now.learned = message;
+    now.step = "learned";
+  },
+  grown(message) {
+    showGrown(part("grown"), message);
+  },
+  map(message) {
+    map.take(message);
+  },
+  hovered({ path }) {
+    if (map.cell) view.mark({ hovered: path });
+  },
+  worker(message) {
+    if (message.state === "ready" && now.worker.state === "restarted") {
+      tell("The robot is awake again, and knows what you taught it.");
+    }
+    now.worker = message;
+    if (message.state === "restarted" || message.state === "failed") leave();
+  },
+  owner({ yours, sentence }) {
+    now.yours = yours;
+    if (!yours) leave();
+    notice(yours ? "" : sentence, true);
+  },
+  begun: beginAnew,
+  told({ sentence }) {
+    tell(sentence);
+  },
+};
+
+const isReady = () => now.connection === "open" && now.yours && now.worker.state === "ready";
+
+/** What is shown to a robot that is still waking up is understood as soon as it is awake. */
+function canWatch() {
+  const isWaking = now.scene && now.worker.state === "starting";
+  return now.connection === "open" && now.yours && (now.worker.state === "ready" || isWaking);
+}
+
+function connectionChanged(state, reason) {
+  now.connection = state;
+  if (state !== "open") leave();
+  if (state === "refused") tell(`The robot closed the connection: ${reason}.`);
+  notice(state === "open" ? "" : "The connection to the robot is lost. Trying again …");
+  refresh();
+}
+
+/** Leave what was under way: the robot is not there to see it, or its end will not come. */
+function leave() {
+  showing.drop();
+  stage.stop();
+  ghost.stop();
+}
+
+/** Forget what was shown of another robot. */
+function beginAnew() {
+  Object.assign(now, { touched: false, learned: null });
+  clearResult();
+  say(part("attempt"), "What the robot does");
+  stage.clear();
+  map.clear();
+  part("grown").hidden = true;
+}
+
+function touched() {
+  now.touched = true;
+  ghost.stop();
+}
+
+function clearResult() {
+  Object.assign(now, { verdict: null, pending: null, performed: null, step: "" });
+  clearVerdict();
+  view.clearInk();
+  view.mark({
+    recognised: null,
+    next: null,
+    done: null,
+    drawn: null,
+    hovered: null,
+    shown: null,
+    hand: null,
+    plan: null,
+  });
+}
+
+function began() {
+  clearResult();
+  say(part("attempt"), "What the robot does");
+  stage.hold(true);
+  refresh();
+}
+
+function ended() {
+  stage.hold(false);
+  refresh();
+}
+
+/** Show the verdict that has arrived; one on a demonstration waits until that has been seen. */
+function judge() {
+  const verdict = now.pending;
+  if (!verdict) return;
+  now.pending = null;
+  now.step = "judged";
+  showVerdict(verdict);
+  view.clearInk();
+  view.mark({
+    drawn: verdict.drawn,
+    recognised: verdict.path,
+    next: verdict.next,
+    shown: null,
+    hand: null,
+  });
+}
+
+/** Return the motion to be shown next: what was never shown, else what goes worst. */
+function nextMotion() {
+  const strokes = now.session.phase;
+  const known = task.motions.filter((motion) => read(motion).signs.length === strokes);
+  const errors = new Map(now.session.notebook.map((e) => [e.motion, e.errors.at(-1) ?? Infinity]));
+  const fresh = known.find((motion) => !errors.has(motion));
+  return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "";
+}
+
+function invite() {
+  const isFirst = now.session.id && now.session.notebook.length === 0;
+  const wanted = canWatch() && now.scene && isFirst && !now.touched && !now.session.busy;
+  if (!wanted || ghost.plays) return;
+  const ways = primitivesOf(nextMotion()).map(({ way }) => way);
+  if (ways.length) ghost.invite(pathAlong(ways));
+}
+
+/** Bring everything that depends on the whole state up to date. */
+function refresh() {
+  invite();
+  tidy({
+    ...now,
+    ready: isReady(),
+    watching: canWatch(),
+    lines: {
+      drawn: showing.drawing || view.marks.drawn?.length,
+      understood: view.marks.recognised?.length,
+      next: view.marks.next?.length,
+      done: view.marks.done?.length,
+    },
+    drawing: showing.drawing,
+    webcam: showing.filmed,
+    keyed: showing.keyed,
+    ghost: ghost.plays && now.touched,
+    busy: now.session.busy,
+    suggest: now.session.suggest,
+    next: nextMotion(),
+    first: now.session.notebook.length === 0,
+  });
+}
+
+furnish(send, touched, () => live.greet(true));
+onScheme(() => view.refresh());
+live.connect();
+refresh();
+
+window.teach = {
+  /** What tests ask for. */
+  state: () => ({
+    verdict: now.verdict,
+    understandings: now.understandings,
+    points: showing.sent,
+    frames: stage.frames,
+    notebook: now.session.notebook.length,
+    phase: now.session.phase,
+    busy: now.session.busy,
+    step: now.step,
+    ready: isReady(),
+    watching: Boolean(canWatch()),
+    drawing: showing.drawing,
+    performed: now.performed,
+    learned: now.learned,
+    drawn3d: Boolean(stage.robot),
+  }),
+  /** Where a place [x, y] of the view lies in the window. */
+  pixel(place) {
+    const box = part("surface").getBoundingClientRect();
+    return [box.left + place[0] * box.width, box.top + place[1] * box.height];
+  },
+  /** Where a place of the task lies in the view. */
+  place: (name) => task.places[name].at,
+};

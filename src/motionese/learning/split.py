@@ -1,0 +1,47 @@
+"""Motions to learn from, and motions held out to test what was learned."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from motionese.errors import MotionError
+from motionese.learning.motions import Motions
+
+ENOUGH = 5
+"""From so many motions on one at least is held out by default."""
+
+
+def split(
+    motions: Motions, held_out: float | Sequence[str] | None = None, *, seed: int = 0
+) -> tuple[Motions, Motions | None]:
+    """Return the motions to learn and those held out, each in their order; None for none.
+
+    Args:
+        motions: All motions.
+        held_out: A share of them, drawn at random (one at least unless it is 0), or their names;
+            a tenth where left out, none of fewer than five.
+        seed: Of the draw.
+
+    Raises:
+        MotionError: A share outside 0 to below 1, a name that no motion has, or nothing left to
+            learn.
+    """
+    count = len(motions)
+    if held_out is None:
+        held_out = 0.1 if count >= ENOUGH else 0.0
+    if isinstance(held_out, int | float):
+        if not 0 <= held_out < 1:
+            raise MotionError(
+                f"held out {held_out:g}: a share of the motions from 0 to below 1, or their names"
+            )
+        number = max(round(held_out * count), 1) if held_out else 0
+        chosen = {motions.names[i] for i in np.random.default_rng(seed).permutation(count)[:number]}
+    else:
+        chosen = set(motions.chosen(held_out).names)
+    learned = [name for name in motions.names if name not in chosen]
+    if not learned:
+        told = f"{held_out:g}" if isinstance(held_out, int | float) else ", ".join(held_out)
+        raise MotionError(f"held out {told}: leaves no motion to learn")
+    if not chosen:
+        return motions, None
+    return motions.chosen(learned), motions.chosen([n for n in motions.names if n in chosen])

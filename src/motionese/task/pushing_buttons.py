@@ -1,0 +1,89 @@
+"""The paper's task: five strokes between four corners, two of which press a button.
+
+The six pairs and seven triples of the paper's experiment (its Table II) follow from the
+primitives. The corners lie on the surface that the Actroid's hand reaches.
+"""
+
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from motionese.task.sequence import Place, Primitive, PrimitiveSequence
+from motionese.task.task import Attempt, Outcome, Task
+
+PRESSED_MM = 5.0
+"""A button that is deeper than this counts as pressed [mm]; its stroke is 15 mm."""
+
+
+def presses(sequence: PrimitiveSequence, attempt: Attempt) -> dict[str, Any]:
+    """Return how many presses were due and made, and how deep they were [mm].
+
+    A stroke's rows count from its middle on, and the beginning of the following stroke, since the
+    arm lags behind what it is commanded; not the rows before, where an earlier press may not yet
+    be over.
+    """
+    ends = (*attempt.begins[1:], len(attempt.path))
+    depths = []
+    for primitive, begin, end in zip(sequence.primitives, attempt.begins, ends, strict=True):
+        if primitive.effect:
+            window = slice(begin + (end - begin) // 2, end + (end - begin) // 3)
+            depths.append(float(attempt.effects[primitive.effect][window].max()))
+    return {
+        "buttons_due": len(depths),
+        "buttons_pressed": sum(depth > PRESSED_MM for depth in depths),
+        "press_depth_mm": float(np.mean(depths)) if depths else np.nan,
+        "press_depths_mm": " ".join(f"{depth:.2f}" for depth in depths),
+    }
+
+
+PUSHING_BUTTONS = Task(
+    name="pushing_buttons",
+    title="pushing two buttons",
+    places={
+        name: Place(name, position, title)
+        for name, position, title in (
+            (
+                "UR",
+                (0.5201350465164571, -0.29561591794016756, 1.0544599580381713),
+                "the upper right",
+            ),
+            (
+                "UL",
+                (0.5201350465164571, -0.06438408205983244, 1.0544599580381713),
+                "the upper left",
+            ),
+            (
+                "LR",
+                (0.4611036090808577, -0.29561591794016756, 0.8288249158568406),
+                "the right button",
+            ),
+            (
+                "LL",
+                (0.4611036090808577, -0.06438408205983244, 0.8288249158568406),
+                "the left button",
+            ),
+        )
+    },
+    primitives=(
+        Primitive("PUSH(R)", "↓", "UR", "LR", "down", effect="right_button"),
+        Primitive("RAISE(R)", "↑", "LR", "UR", "up"),
+        Primitive("SLIDE", "←", "UR", "UL", "to the left"),
+        Primitive("PUSH(L)", "↓", "UL", "LL", "down", effect="left_button"),
+        Primitive("RAISE(L)", "↑", "LL", "UL", "up"),
+    ),
+    achieved=presses,
+    outcomes=(
+        Outcome("buttons_pressed", "due presses that were made", of="buttons_due"),
+        Outcome("press_depth_mm", "depth of due presses", "mm"),
+    ),
+    untaught=frozenset({("RAISE(R)", "PUSH(R)"), ("RAISE(L)", "PUSH(L)")}),
+    lessons={
+        "taught pairs": ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑"),
+        "branching pairs": ("UR ↓↑", "LR ↑↓", "LR ↑←", "UR ←↓", "UL ↓↑"),
+    },
+    novel={"triples": (*("UR ↓↑↓", "UR ↓↑←", "LR ↑↓↑", "LR ↑←↓", "UR ←↓↑", "UL ↓↑↓", "LL ↑↓↑"),)},
+    fixtures=files(__package__).joinpath("pushing_buttons.xml").read_text(encoding="utf-8"),
+    effects=("right_button", "left_button"),
+)
+"""Upper and lower, right and left corners, the lower ones being buttons."""

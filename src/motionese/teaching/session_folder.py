@@ -1,0 +1,235 @@
+"""A session's folder: written whole after every change, so that a kill at any moment loses nothing.
+
+`session.json` names the files that belong to it; what it does not name is left over and removed.
+"""
+
+import io
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+from zipfile import BadZipFile
+
+import numpy as np
+
+from motionese.caregiver import (
+    DEMONSTRATIONS,
+    Demonstration,
+    moving,
+    recording_of,
+    sequence_in,
+)
+from motionese.caregiver.recorded import UNREAD
+from motionese.errors import StorageError
+from motionese.files import write_whole
+from motionese.imitation import (
+    BABBLING,
+    Learner,
+    Scene,
+    Settings,
+    babbled,
+    checked,
+    newborn,
+    read_learner,
+    write_learner,
+)
+from motionese.recordings import write
+from motionese.teaching.notebook import Entry, Learning, Notebook
+from motionese.teaching.session import Teaching
+
+FORMAT, VERSION = "motionese-teaching", 2
+SESSION = "session.json"
+FRESH = "fresh"
+LEVELS = 2
+"""Levels of a robot at the beginning: input and output, and the fastest context."""
+
+
+class SessionFolder:
+    """Where a session is kept.
+
+    Attributes:
+        path: The folder.
+        id: A name of the session that no other has.
+        began: What its robot began from.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Keep a session in a folder, which is made when it is first saved."""
+        self.path = path
+        self.id, self.began = uuid4().hex[:12], ""
+        # What this process knows to be written: the learner's number, and the entries'. A file that
+        # a killed process has left under a number that was not yet given counts for nothing.
+        self._written, self._entries = 0, set[int]()
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a session to go on with."""
+        return (self.path / SESSION).is_file()
+
+    def begin(self, began: str, scene: Scene, learner: Learner | None = None) -> Teaching:
+        """Begin a session.
+
+        Args:
+            began: "babbling", "fresh", or what the learner comes from.
+            scene: The robot and its settings.
+            learner: What it is; where left out one that has babbled, or has done nothing yet.
+
+        Raises:
+            StorageError: There are other files in the folder.
+        """
+        if self.path.exists() and any(not p.name.startswith(".") for p in self.path.iterdir()):
+            raise StorageError(f"{self.path} is not empty and no session; choose another --session")
+        teaching = Teaching(scene, learner or _new(began, scene))
+        self.began = began
+        self.save(teaching)
+        return teaching
+
+    def begin_anew(self, began: str, before: Teaching) -> Teaching:
+        """Begin a session with the same settings; the one before is kept in a subfolder."""
+        learner = _new(began, before.scene)
+        number = len(list(self.path.glob("earlier-*"))) + 1
+        earlier = self.path / f"earlier-{number:02d}"
+        earlier.mkdir()
+        # The session's own file goes last: until then it names files that are still found.
+        own = [*self.path.glob("*.npz"), *self.path.glob("*.safetensors"), self.path / SESSION]
+        for file in own:
+            file.rename(earlier / file.name)
+        self.id, self.began = uuid4().hex[:12], began
+        self._written, self._entries = 0, set()
+        teaching = Teaching(before.scene, learner)
+        self.save(teaching)
+        return teaching
+
+    def read(self, begin: str = "") -> Teaching:
+        """Return the session to go on with.
+
+        Args:
+            begin: What it must have begun from; anything where empty.
+
+        Raises:
+            StorageError: What is in the folder is no session, or it began from something else.
+        """
+        file = self.path / SESSION
+        try:
+            facts = json.loads(file.read_text())
+            if facts.get("format") != FORMAT:
+                raise StorageError(f"{file} was not written by motionese")
+            if facts.get("version") != VERSION:
+                raise StorageError(
+                    f"{file}: session of format {facts.get('version')}, this version of motionese "
+                    f"reads {VERSION}; go on with the version that wrote it, or choose another "
+                    "--session"
+                )
+            self.id, self.began = str(facts["id"]), str(facts["began"])
+            notebook = Notebook(
+                entries=tuple(self._entry(each) for each in facts["entries"]),
+                learned=tuple(Learning(**each) for each in facts["learned"]),
+                next=int(facts["next"]),
+            )
+            number, numbers, seed = (int(facts[name]) for name in ("learner", "learners", "seed"))
+            settings = checked(Settings, facts["settings"])
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, BadZipFile) as e:
+            raise StorageError(f"{self.path}: no session that can be read; it was changed") from e
+        if begin and begin != self.began:
+            raise StorageError(
+                f"{self.path}: this session began from {self.began}, not from {begin}; "
+                "choose another --session"
+            )
+        self._written, self._entries = number, {entry.number for entry in notebook.entries}
+        scene, learner = Scene(settings, seed), self.learner(number)
+        return Teaching(scene, learner, notebook, number=number, numbers=numbers)
+
+    def save(self, teaching: Teaching) -> None:
+        """Write what has changed; the session stays as it is."""
+        number, notebook = teaching.standing.number, teaching.notebook
+        rate_hz = teaching.scene.body.rate_hz
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            if number != self._written:
+                write_learner(self._learner_path(number), teaching.learner, rate_hz, {})
+                self._written = number
+            for entry in notebook.entries:
+                if entry.number not in self._entries:
+                    content, shown = io.BytesIO(), entry.demonstration
+                    np.savez(content, drawn=entry.drawn, path=shown.path, begins=shown.begins)
+                    write_whole(self._entry_path(entry.number), content.getvalue())
+                    self._entries.add(entry.number)
+            drawn = ((_shows(entry, teaching.scene), entry.drawn) for entry in notebook.entries)
+            recording = recording_of(drawn, rate_hz)
+            if recording is not None:
+                write(self.path / DEMONSTRATIONS, recording)
+            write_whole(self.path / SESSION, json.dumps(self._facts(teaching), indent=1))
+            self._remove_what_is_left_over(teaching)
+        except OSError as error:
+            raise StorageError(f"{self.path} cannot be written to: {error.strerror}") from error
+
+    def learner(self, number: int) -> Learner:
+        """Return the learner of a number that was kept."""
+        return read_learner(self._learner_path(number))[0]
+
+    def _facts(self, teaching: Teaching) -> dict[str, Any]:
+        entries = [
+            {
+                "number": entry.number,
+                "motion": entry.motion,
+                "source": entry.source,
+                "errors_cm": entry.errors_cm,
+            }
+            for entry in teaching.notebook.entries
+        ]
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "id": self.id,
+            "began": self.began,
+            "seed": teaching.scene.seed,
+            "learner": teaching.standing.number,
+            "learners": teaching.numbers,
+            "next": teaching.notebook.next,
+            "entries": entries,
+            "learned": [asdict(each) for each in teaching.notebook.learned],
+            "settings": {
+                name: value
+                for name, value in teaching.scene.settings.model_dump(mode="json").items()
+                if name in Settings.model_fields
+            },
+        }
+
+    def _entry(self, facts: dict[str, Any]) -> Entry:
+        with np.load(self._entry_path(facts["number"]), allow_pickle=False) as arrays:
+            begins = tuple(int(row) for row in arrays["begins"])
+            return Entry(
+                **{**facts, "errors_cm": tuple(facts["errors_cm"])},
+                drawn=arrays["drawn"],
+                demonstration=Demonstration(arrays["path"], begins),
+            )
+
+    def _entry_path(self, number: int) -> Path:
+        return self.path / f"shown-{int(number):04d}.npz"
+
+    def _learner_path(self, number: int) -> Path:
+        return self.path / f"learner-{number:05d}.safetensors"
+
+    def _remove_what_is_left_over(self, teaching: Teaching) -> None:
+        notebook = teaching.notebook
+        kept = {teaching.standing.number, *(each.before for each in notebook.learned)}
+        named = {self._learner_path(number) for number in kept}
+        named |= {self._entry_path(entry.number) for entry in notebook.entries}
+        for pattern in ("learner-*.safetensors", "shown-*.npz"):
+            for path in set(self.path.glob(pattern)) - named:
+                path.unlink(missing_ok=True)
+        if not notebook.entries:
+            (self.path / DEMONSTRATIONS).unlink(missing_ok=True)
+
+
+def _new(began: str, scene: Scene) -> Learner:
+    learner = newborn(scene, LEVELS)
+    return babbled(scene, learner) if began == BABBLING else learner
+
+
+def _shows(entry: Entry, scene: Scene) -> str:
+    """Return what a drawing shows, as `caregiver.read_recorded` will read it."""
+    hand = moving(entry.drawn, scene.settings.caregiver.rest_steps)
+    sequence = sequence_in(hand, scene.task)
+    return sequence.name if sequence else f"{entry.motion.rstrip(f' {UNREAD}')} {UNREAD}"

@@ -1,0 +1,188 @@
+"""A page teaches a robot through the server, with the robot in a process of its own."""
+
+import pytest
+from drawn import pen, strokes
+from gibberish import messages, right
+from hypothesis import given, settings
+from hypothesis import strategies as some
+from pages import page, served
+
+from motionese.imitation import Scene
+from motionese.interfaces.page.supervisor import Supervisor
+from motionese.interfaces.page.worker import Origin
+from motionese.recordings import read
+from motionese.teaching.session_folder import SessionFolder
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory, small_settings, compiled):
+    """The folder of a session whose robot knows nothing and learns in a moment."""
+    folder, scene = SessionFolder(tmp_path_factory.mktemp("session")), Scene(small_settings, 0)
+    folder.begin("fresh", scene)
+    return folder.path
+
+
+@pytest.fixture(scope="module")
+def client(session):
+    """A server whose robot is awake."""
+    with served(lambda told: Supervisor(Origin("", session), told), session) as client:
+        with page(client) as first:
+            first.hear("worker", where=lambda m: m["state"] == "ready")
+        yield client
+
+
+def idle(own):
+    return own.hear("session", where=lambda m: m["busy"] == "")
+
+
+def show(own, name):
+    for message in strokes(name):
+        own.say(message)
+    verdict = own.hear("verdict")
+    return verdict, idle(own)
+
+
+def test_a_page_is_told_all_it_needs(client):
+    with page(client) as own:
+        scene, session = own.hear("scene"), own.hear("session")
+    assert own.heard[0] == {"type": "owner", "yours": True, "sentence": ""}
+    task = scene["task"]
+    assert set(task["places"]) == {"UR", "UL", "LR", "LL"}
+    assert task["places"]["LR"]["title"] == "the right button"
+    assert [effect["places"] for effect in task["effects"]] == [["LR"], ["LL"]]
+    assert {(p["sign"], p["start"]) for p in task["primitives"]} >= {("↓", "UR"), ("←", "UR")}
+    assert len(task["motions"]) == 5 + 6 + 7 and scene["rate_hz"] == 10
+    assert [level["name"] for level in scene["levels"]] == ["io", "cf", "cs"]
+    assert {"name", "body", "type", "size", "pos", "quat", "rgba"} == set(
+        scene["robot"]["geoms"][0]
+    )
+    assert len(scene["robot"]["pose"]) == 7 * len(scene["robot"]["bodies"])
+    assert session["phase"] == 1 and session["can_grow"] and not session["can_map"]
+
+
+def test_drawing_understanding_verdict_imitation_learning(client, session):
+    with page(client) as own:
+        before = idle(own)
+        verdict, noted = show(own, "UR ←")
+        assert verdict["shown"] == "UR ←" and 0 <= verdict["confidence"] <= 1
+        assert len(verdict["path"]) == len(verdict["drawn"]) and len(verdict["next"]) == 14
+        assert noted["notebook"][-1]["motion"] == "UR ←" and noted["shown"] == verdict["entry"]
+        assert len(noted["notebook"]) == len(before["notebook"]) + 1
+
+        own.say({"type": "imitate"})
+        own.hear("performed")
+        frames = [m for m in own.heard if m["type"] == "frames"]
+        count = sum(len(m["poses"]) for m in frames)
+        assert count == 2 * len(verdict["drawn"]) - 1 and frames[-1]["last"]
+        assert [m["from"] for m in frames] == list(range(0, count, 4))
+        assert frames[0]["rate_hz"] == 20 and len(frames[0]["activity"]["cf"][0]) == 40
+
+        own.say({"type": "learn"})
+        learned = own.hear("learned")
+        assert learned["entry"] == verdict["entry"] and learned["curve"]["n"] >= 1
+        progress = [m for m in own.heard if m["type"] == "progress"]
+        assert [m["done"] for m in progress] == list(range(5, progress[0]["of"] + 1, 5))
+        assert idle(own)["notebook"][-1]["learned"]
+    with page(client) as reloaded:
+        found = reloaded.hear("session")
+        assert found["notebook"][-1]["learned"] and found["shown"] == verdict["entry"]
+    exported = client.get("/export.npz")
+    assert "attachment" in exported.headers["content-disposition"]
+    (session / "got.npz").write_bytes(exported.content)
+    assert read(session / "got.npz").episodes[-1].name.startswith("UR ←")
+
+
+def test_what_is_understood_is_told_while_the_pen_moves(client):
+    with page(client) as own:
+        idle(own)
+        *drawing, up = strokes("UR ↓")
+        for message in drawing:
+            own.say(message)
+        understanding = own.hear("understanding")
+        assert understanding["arrows"].startswith("UR") and len(understanding["next"]) == 14
+        own.say(up)
+        own.hear("verdict")
+
+
+def test_the_scripted_caregiver_shows_and_is_understood(client):
+    with page(client) as own:
+        idle(own)
+        own.say({"type": "demonstrate", "motion": "UR ↓"})
+        shown = own.hear("shown")
+        assert shown["path"][0][0] == 0 and len(shown["path"]) == 14
+        own.say({"type": "demonstrate", "motion": "UR ←"})
+        assert "wait a moment" in own.hear("told")["sentence"]
+        assert own.hear("verdict")["shown"] == "UR ↓"
+        assert idle(own)["notebook"][-1]["source"] == "scripted"
+        own.say({"type": "demonstrate", "motion": "UR →"})
+        assert own.hear("told")["kind"] == "refusal"
+
+
+def test_slips_of_the_pen_are_told_kindly(client):
+    with page(client) as own:
+        idle(own)
+        own.say(pen("down", [(0, 0.5, 0.5)]))
+        own.say(pen("up"))
+        assert "very short" in own.hear("told")["sentence"]
+
+
+def test_a_second_page_is_told_and_may_take_over(client):
+    with page(client) as own:
+        own.hear("owner")
+        with page(client) as second:
+            assert not second.hear("owner")["yours"]
+            second.say({"type": "learn"})
+            assert second.hear("told")["kind"] == "refusal"
+            second.say({"type": "hello", "take": True})
+            assert second.hear("owner")["yours"] and second.hear("session")
+            assert not own.hear("owner")["yours"]
+            own.say({"type": "imitate"})
+            assert own.hear("told")["kind"] == "refusal"
+
+
+@pytest.mark.slow
+def test_undo_and_growth_and_the_map(client):
+    with page(client) as own:
+        before = show(own, "UR ↓")[1]
+        number = before["notebook"][-1]["entry"]
+        own.say({"type": "forget", "entry": number})
+        assert number not in [e["entry"] for e in idle(own)["notebook"]]
+        own.say({"type": "map"})
+        assert own.hear("told", where=lambda m: "no slow level" in m["sentence"])
+        own.say({"type": "grow"})
+        grown = own.hear("grown")
+        assert grown["levels"] == ["io", "cf", "cs"] and len(grown["before"]) == len(grown["after"])
+        assert idle(own)["phase"] == 2
+        own.say({"type": "map"})
+        drawn = own.hear("map")
+        assert set(map(len, drawn["primitives"].values())) == {len(drawn["axis"]) ** 2}
+        idle(own)
+        own.say({"type": "hover", "slow": [0.5, -1.0], "primitive": "UR ↓"})
+        assert len(own.hear("hovered")["path"]) == 28
+
+
+@pytest.mark.slow
+def test_thousands_of_messages_leave_server_and_session_whole(client, session):
+    said = 0
+
+    @given(some.lists(messages | right, min_size=8, max_size=30))
+    @settings(max_examples=300)
+    def spoken(some_messages):
+        nonlocal said
+        with page(client) as own:
+            for message in some_messages:
+                own.say(message)
+                said += 1
+
+    pid = client.hub.worker_pid
+    spoken()
+    assert said > 2000
+    with page(client) as own:
+        own.say({"type": "stop"})
+        verdict, after = show(own, "UR ←")
+        assert verdict["shown"] == "UR ←" and after["notebook"][-1]["entry"] == verdict["entry"]
+    assert client.hub.worker_pid == pid, "the robot's process went on all the time"
+    assert client.get("/").status_code == 200
+    outside = {path.name for path in session.parent.iterdir()}
+    assert SessionFolder(session).read().notebook.entries[-1].motion == "UR ←"
+    assert outside == {path.name for path in session.parent.iterdir()}
