@@ -30,7 +30,7 @@ def sigmoid(u: ndarray, out: ndarray | None = None) -> ndarray:
     y = np.multiply(u, 0.5, out=out)
     np.tanh(y, out=y)
     np.multiply(y, 0.5, out=y)
-    return np.add(y, 0.5, out=y)
+    return np.asarray(np.add(y, 0.5, out=y))
 
 
 def logit(y: ndarray) -> ndarray:

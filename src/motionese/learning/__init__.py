@@ -1,19 +1,17 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
-from motionese.learning.motions.batch import Batch
 from motionese.learning.fit import Fit
-from motionese.learning.recognition.result import Found
-from motionese.learning.generation.generate import activity, generate
+from motionese.learning.generation.generate import activity, generate, placed
+from motionese.learning.generation.sequence import generate_sequence
 from motionese.learning.memory import Memory
 from motionese.learning.model_recordings import read_for
+from motionese.learning.motions.batch import Batch
 from motionese.learning.motions.motions import Motions
-from motionese.learning.generation.generate import placed
-from motionese.learning.status import Progress
 from motionese.learning.recognition.recognise import recognise, recognise_all
-from motionese.learning.generation.sequence import generate_sequence
+from motionese.learning.recognition.result import Found
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.split import split
-from motionese.learning.status import Ending, Status
+from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.storage import load, read_fit, save, write_fit
 from motionese.learning.training.train import train
 
