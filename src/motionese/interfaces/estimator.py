@@ -14,9 +14,9 @@ from motionese.errors import SettingError, needs
 from motionese.interfaces.commands.train import read_levels
 from motionese.learning import (
     Fit,
-    Found,
     Motions,
     Recognition,
+    RecognitionResult,
     Training,
     recognise_all,
     train,
@@ -101,7 +101,7 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
             warnings.warn(str(self.fit_.status), ConvergenceWarning, stacklevel=2)
         return self
 
-    def recognise(self, X: Any) -> list[Found]:
+    def recognise(self, X: Any) -> list[RecognitionResult]:
         """Recognise every motion from what is observed in it, and tell how well that went."""
         check_is_fitted(self)
         values = self._checked(X, reset=False)

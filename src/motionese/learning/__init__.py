@@ -8,7 +8,7 @@ from motionese.learning.model_recordings import read_for
 from motionese.learning.motions.batch import Batch
 from motionese.learning.motions.motions import Motions
 from motionese.learning.recognition.recognise import recognise, recognise_all
-from motionese.learning.recognition.result import Found
+from motionese.learning.recognition.result import RecognitionResult
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.split import split
 from motionese.learning.status import Ending, Progress, Status
@@ -19,11 +19,11 @@ __all__ = [
     "Batch",
     "Ending",
     "Fit",
-    "Found",
     "Memory",
     "Motions",
     "Progress",
     "Recognition",
+    "RecognitionResult",
     "Status",
     "Training",
     "activity",

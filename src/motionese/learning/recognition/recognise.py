@@ -22,7 +22,7 @@ from motionese.learning.motions.motions import Motions
 from motionese.learning.objective import with_shared_channels
 from motionese.learning.optimisers import recognition_rule
 from motionese.learning.recognition.descent import descend
-from motionese.learning.recognition.result import Found, judged
+from motionese.learning.recognition.result import RecognitionResult, judged
 from motionese.learning.settings import Recognition
 from motionese.network import MTRNN
 
@@ -42,7 +42,7 @@ def recognise(
     starts: Float[ndarray, "M N"] | None = None,
     settings: Recognition | None = None,
     key: Array | None = None,
-) -> Found:
+) -> RecognitionResult:
     """Find the initial states from which the network generates a motion.
 
     Args:
@@ -88,7 +88,7 @@ def recognise_all(
     settings: Recognition | None = None,
     key: Array | None = None,
     padded_to: tuple[int, int] | None = None,
-) -> list[Found]:
+) -> list[RecognitionResult]:
     """Recognise many motions in one batch, each from its observed values alone.
 
     Args:

@@ -15,7 +15,7 @@ from motionese.network import MTRNN
 
 
 @dataclass(frozen=True)
-class Found:
+class RecognitionResult:
     """What recognition found for one motion.
 
     Attributes:
@@ -46,7 +46,7 @@ def judged(
     losses: Float[ndarray, "S M"],
     chosen: Int[ndarray, " S"],
     settings: Recognition,
-) -> list[Found]:
+) -> list[RecognitionResult]:
     """Judge the initial states that were found, one for every motion of a batch.
 
     Args:
@@ -66,7 +66,7 @@ def judged(
         shares = residuals[i][~np.isnan(residuals[i])] / spans[~np.isnan(residuals[i])]
         worst = float(shares.max()) if len(shares) else np.nan
         found.append(
-            Found(
+            RecognitionResult(
                 initial_state=states[i],
                 path=motions.channels.from_unit(paths[i, :length]),
                 residual=residuals[i],
