@@ -49,7 +49,7 @@ def trained(sizes: tuple[int, ...]) -> mo.Fit:
     names = [f"joint {i}" for i in range(CHANNELS)]
     motions = mo.Motions.from_arrays(arrays, names, RATE_HZ, names=["a", "b"])
     levels = [mo.Level(s, tau) for s, tau in zip(sizes, (2.0, 5.0, 70.0), strict=True)]
-    return mo.train(mo.MTRNN(levels, key=jax.random.key(0)), motions, epochs=300)
+    return mo.train(mo.MTRNN.draw(levels, key=jax.random.key(0)), motions, epochs=300)
 
 
 def microseconds(step: Callable[[], object]) -> tuple[float, float]:

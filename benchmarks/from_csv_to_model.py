@@ -104,7 +104,7 @@ def train_by_command(source: Path, out: Path) -> Time:
 def drawn_network() -> mo.MTRNN:
     """Return the network as the command draws it."""
     drawn, _ = jax.random.split(jax.random.key(SEED))
-    return mo.MTRNN([mo.Level(s, t) for s, t in zip(SIZES, TAUS, strict=True)], key=drawn)
+    return mo.MTRNN.draw([mo.Level(s, t) for s, t in zip(SIZES, TAUS, strict=True)], key=drawn)
 
 
 def disagreement(ways: dict[str, Callable[[], float]], losses: np.ndarray) -> float:

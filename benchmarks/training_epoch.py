@@ -110,7 +110,7 @@ def main() -> None:
     torch.set_num_threads(1)
     motions = curves()
     levels = [Level(size, tau) for size, tau in zip(SIZES, TAUS, strict=True)]
-    network = MTRNN(levels, key=jax.random.key(0))
+    network = MTRNN.draw(levels, key=jax.random.key(0))
     model = InTorch(network, motions)
 
     losses = train(network, motions, epochs=EPOCHS, settings=SETTINGS).losses[:10]

@@ -18,11 +18,11 @@ first = mo.Motions.from_arrays(known, channels=["x", "y"], rate_hz=10.0)
 both = mo.Motions.from_arrays(known + longer, channels=["x", "y"], rate_hz=10.0)
 low = [mo.Level(2, tau=2.0), mo.Level(30, tau=5.0)]
 slow = mo.Level(4, tau=70.0)
-born = mo.MTRNN(low, key=jax.random.key(0), gain=2.0)
+born = mo.MTRNN.draw(low, key=jax.random.key(0), gain=2.0)
 before = mo.train(born, first, epochs=1500)
 taller = mo.grow(before.network, slow, key=jax.random.key(1), influence=0.25)
 grown = mo.train(taller, both, epochs=1500)
-whole = mo.train(mo.MTRNN([*low, slow], key=jax.random.key(0), gain=2.0), both, epochs=1500)
+whole = mo.train(mo.MTRNN.draw([*low, slow], key=jax.random.key(0), gain=2.0), both, epochs=1500)
 
 figure, panel = plt.subplots(figsize=(7, 3.5), layout="tight")
 panel.semilogy(before.losses, color="0.5", label="IO–Cf on two motions")

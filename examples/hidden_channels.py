@@ -21,7 +21,7 @@ def arm(size: float) -> np.ndarray:
 data = mo.Motions.from_arrays(
     [arm(size) for size in (0.2, 0.5, 0.8)], channels=["x", "y", "height"], rate_hz=10.0
 )
-net = mo.MTRNN([mo.Level(3, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(1), gain=2.0)
+net = mo.MTRNN.draw([mo.Level(3, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(1), gain=2.0)
 fit = mo.train(net, data, epochs=3000)
 
 figure, panel = plt.subplots(figsize=(7, 3.5), layout="tight")

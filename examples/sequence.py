@@ -15,7 +15,7 @@ motions = {
 data = mo.Motions.from_arrays(
     list(motions.values()), channels=["height [m]", "angle [rad]"], rate_hz=20.0
 )
-net = mo.MTRNN([mo.Level(2, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(0), gain=2.0)
+net = mo.MTRNN.draw([mo.Level(2, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(0), gain=2.0)
 fit = mo.train(net, data, epochs=2000)
 path = mo.generate_sequence(
     fit.network,

@@ -9,7 +9,7 @@ import motionese as mo
 t = np.linspace(0, 2 * np.pi, 60)[:, None]
 shown = np.hstack([np.sin(t), np.sin(2 * t)])
 data = mo.Motions.from_arrays([shown], channels=["x", "y"], rate_hz=10.0)
-net = mo.MTRNN([mo.Level(2, tau=4.0), mo.Level(40, tau=8.0)], key=jax.random.key(0), gain=2.0)
+net = mo.MTRNN.draw([mo.Level(2, tau=4.0), mo.Level(40, tau=8.0)], key=jax.random.key(0), gain=2.0)
 fit = mo.train(net, data, epochs=3000)
 
 figure, panels = plt.subplots(1, 2, figsize=(9, 3.4), layout="tight")

@@ -19,7 +19,7 @@ shown = {
 data = mo.Motions.from_arrays(
     list(shown.values()), channels=["x", "y"], rate_hz=10.0, names=list(shown)
 )
-net = mo.MTRNN([mo.Level(2, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(0), gain=2.0)
+net = mo.MTRNN.draw([mo.Level(2, tau=2.0), mo.Level(30, tau=5.0)], key=jax.random.key(0), gain=2.0)
 fit = mo.train(net, data, epochs=3000)
 print(fit.status)
 

@@ -41,7 +41,7 @@ def potentials(sizes):
     """The package's rollout as a function of all that has a gradient, in the order PARTS."""
 
     def compute(weights, bias, tau, initial, sensed, share, noise):
-        network = MTRNN([Level(size, 2.0) for size in sizes], key=jax.random.key(0))
+        network = MTRNN.draw([Level(size, 2.0) for size in sizes], key=jax.random.key(0))
         network = eqx.tree_at(lambda n: (n.weights, n.bias, n.tau), network, (weights, bias, tau))
         return rollout(network, initial, sensed, share, noise)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from motionese.channels import Channel, Channels
 from motionese.network import MTRNN, Level, write_network
+from motionese.runtime import timing
 
 CHANNELS = Channels(
     [
@@ -25,11 +26,12 @@ NAMES = ("reach", "wave")
 def written(path, *, initial_io="sensed", facts=None):
     """Write a model with weights everywhere, wired or not; returns its network and u_0."""
     levels = [Level(3, 2.0), Level(7, tuple(np.linspace(1.25, 6.0, 7))), Level(2, 30.0)]
-    network = MTRNN(levels, key=jax.random.key(0), channels=CHANNELS, initial_io=initial_io)
+    network = MTRNN.draw(levels, key=jax.random.key(0), channels=CHANNELS, initial_io=initial_io)
     rng = np.random.default_rng(0)
-    network = network.with_parameters(
-        jnp.asarray(rng.normal(0.0, 1.2, (12, 12)), jnp.float32),
-        jnp.asarray(rng.normal(size=12), jnp.float32),
+    network = replace(
+        network,
+        weights=jnp.asarray(rng.normal(0.0, 1.2, (12, 12)), jnp.float32),
+        bias=jnp.asarray(rng.normal(size=12), jnp.float32),
     )
     states = rng.normal(size=(2, 12)).astype(np.float32)
     told = {"names": list(NAMES), "status": "stopped", "sentence": "", **(facts or {})}
@@ -47,7 +49,7 @@ def nothing_learned(fit):
     return replace(fit, names=(), lengths=(), initial_states=states, validation_names=(), **none)
 
 
-class Clock:
+class Clock(timing.Clock):
     """Time that passes when somebody sleeps, or when a test says so."""
 
     def __init__(self):

@@ -1,4 +1,4 @@
-"""Where values lie in the unit interval, in which the network's IO units live. Needs NumPy only.
+"""The unit interval, in which the network's outputs live, and values in it. Needs NumPy only.
 
 IO units are sigmoids, so a channel's range is mapped to 0.1–0.9 and whatever lies beyond it is
 clipped to 0.02–0.98, where a logit is still finite and a gradient still flows.
@@ -23,3 +23,16 @@ def from_unit(values: ndarray, low: ndarray, span: ndarray) -> ndarray:
     """Map the unit interval [*shape, D] back to the channels' units."""
     share = (np.asarray(values, dtype=np.float64) - INNER_LOW) / (INNER_HIGH - INNER_LOW)
     return np.asarray(low + span * share)
+
+
+def sigmoid(u: ndarray, out: ndarray | None = None) -> ndarray:
+    """Equation (2), written into `out` if given; by tanh, which cannot overflow as exp(−u) does."""
+    y = np.multiply(u, 0.5, out=out)
+    np.tanh(y, out=y)
+    np.multiply(y, 0.5, out=y)
+    return np.asarray(np.add(y, 0.5, out=y))
+
+
+def logit(y: ndarray) -> ndarray:
+    """Return the potential whose output is y, for 0 < y < 1."""
+    return np.asarray(np.log(y / (1 - y)))

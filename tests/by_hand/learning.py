@@ -34,11 +34,11 @@ def error_and_gradients(net, motion, free, teacher_forcing):
 
     Args:
         net: Weights, bias, tau, sizes, initial_io by name.
-        motion: Sensed values in the unit interval and what was observed. ([T, D], [T, D])
+        motion: Sensed values in the unit interval, what was observed, and how much each counts.
         free: Initial states that may be moved. [N]
         teacher_forcing: Share of sensed values in the inputs.
     """
-    sensed, observed = motion
+    sensed, observed, weight = motion
     sensed = np.where(observed, sensed, 0.0)
     share = shares(observed, teacher_forcing)
     begin = start(free, sensed, observed, net["initial_io"])
@@ -49,13 +49,41 @@ def error_and_gradients(net, motion, free, teacher_forcing):
         for channel in range(len(sensed[0])):
             if observed[t][channel]:
                 y = sigmoid(path[t, channel])
-                error += (y - sensed[t][channel]) ** 2
-                outer[t, channel] = 2.0 * (y - sensed[t][channel]) * y * (1.0 - y)
+                w = weight[t][channel]
+                error += w * (y - sensed[t][channel]) ** 2
+                outer[t, channel] = 2.0 * w * (y - sensed[t][channel]) * y * (1.0 - y)
     slope = gradients(outer, *parts, begin, sensed, share, path)
     for channel in range(len(sensed[0])):
         if net["initial_io"] == "zero" or observed[0][channel]:
             slope["initial"][channel] = 0.0
     return error, slope
+
+
+def gaussian_error(net, motion, free, teacher_forcing):
+    """Negative log likelihood of one motion, its variance read out of the context units.
+
+    Args as of `error_and_gradients`; `net` holds the read-out as variance_weights, variance_bias.
+    """
+    sensed, observed, weight = motion
+    sensed, io = np.where(observed, sensed, 0.0), len(sensed[0])
+    path = rollout(
+        *(net[name] for name in ("weights", "bias", "tau", "sizes")),
+        start(free, sensed, observed, net["initial_io"]),
+        sensed,
+        shares(observed, teacher_forcing),
+    )
+    error = 0.0
+    for t in range(1, len(sensed)):
+        context = [sigmoid(u) for u in path[t][io:]]
+        for channel in range(io):
+            read = sum(
+                r * y for r, y in zip(net["variance_weights"][channel], context, strict=True)
+            )
+            variance = math.exp(read + net["variance_bias"][channel]) + 1e-5
+            residual = sigmoid(path[t][channel]) - sensed[t][channel]
+            cost = residual**2 / (2 * variance) + math.log(math.sqrt(2 * math.pi * variance))
+            error += weight[t][channel] * cost if observed[t][channel] else 0.0
+    return error
 
 
 def rate_share(epoch, epochs, schedule):
@@ -139,4 +167,4 @@ def recognition(net, motion, free, *, iterations, rate, bound, penalty, enough=-
             break
         slower = 0.3 if iteration >= 0.7 * iterations else 1.0
         free = np.clip(free - rate * slower * slope, -bound, bound)
-    return np.array(start(best, *motion, net["initial_io"])), smallest, arrived
+    return np.array(start(best, *motion[:2], net["initial_io"])), smallest, arrived

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from motionese.body import BodySettings, open_body
+from motionese.body import open_body
+from motionese.body.actroid import ActroidSettings
 from motionese.caregiver import (
     DEMONSTRATIONS,
     Manner,
@@ -25,7 +26,7 @@ class Shown:
     """A task at a robot, and hands that show it, faster or slower than the caregiver."""
 
     def __init__(self, task):
-        self.task, self.body = task, open_body(BodySettings(), task)
+        self.task, self.body = task, open_body(ActroidSettings(), task)
         self.scripted = ScriptedCaregiver(task, MANNER, self.body)
 
     def path(self, name, slower=1.0, seed=0):

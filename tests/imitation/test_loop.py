@@ -295,7 +295,7 @@ def test_map_has_a_row_for_every_primitive_and_point(scene):
 
 def test_map_of_a_network_without_slow_level_is_empty(scene):
     assert map_slow_states(scene, learner_of(scene, levels=2)) == []
-    one_unit = MTRNN(
+    one_unit = MTRNN.draw(
         [Level(6, 2.0), Level(8, 5.0), Level(1, 70.0)],
         key=key_for(0),
         channels=scene.body.channels,

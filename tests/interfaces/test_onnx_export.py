@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 
 import jax
 import jax.numpy as jnp
@@ -47,7 +48,7 @@ def test_a_step_is_the_equations_step(network, tmp_path):
 def test_a_fit_moves_from_what_its_file_alone_tells(tmp_path):
     t = np.linspace(0.0, 3.0, 20)[:, None]
     motions = Motions.from_arrays([np.hstack([np.sin(t), t])], ["x", "y"], 10.0, names=["bow"])
-    net = MTRNN([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0))
+    net = MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0))
     fit = train(net, motions, settings=Training(epochs=1))
     export_onnx(tmp_path / "step.onnx", fit)
 
@@ -89,7 +90,7 @@ def test_the_file_tells_what_it_is(network, tmp_path):
 
 
 def test_large_weights_are_no_reason_to_refuse(network, tmp_path):
-    larger = network.with_parameters(20 * network.weights, 20 * network.bias)
+    larger = replace(network, weights=20 * network.weights, bias=20 * network.bias)
 
     assert export_onnx(tmp_path / "step.onnx", larger) <= 1e-6
 
@@ -120,10 +121,10 @@ def test_a_missing_package_is_told_and_nothing_is_written(network, tmp_path, mon
 
 
 def test_networks_that_cannot_be_used_are_refused(network, tmp_path):
-    bare = MTRNN([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0))
+    bare = MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0))
     with pytest.raises(ChannelError, match="carries no channels; train it on motions first"):
         export_onnx(tmp_path / "step.onnx", bare)
-    broken = network.with_parameters(network.weights, jnp.full(12, jnp.nan))
+    broken = replace(network, bias=jnp.full(12, jnp.nan))
     with pytest.raises(StorageError, match="differs from the network by nan"):
         export_onnx(tmp_path / "step.onnx", broken)
     assert list(tmp_path.iterdir()) == []

@@ -26,7 +26,7 @@ def motions():
 @pytest.fixture(scope="session")
 def network():
     levels = [Level(3, tau=2.0), Level(12, tau=5.0), Level(2, tau=70.0)]
-    return MTRNN(levels, key=jax.random.key(0))
+    return MTRNN.draw(levels, key=jax.random.key(0))
 
 
 @pytest.fixture(scope="session")

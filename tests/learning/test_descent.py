@@ -1,5 +1,7 @@
 """Training and recognition by plain descent are what equations (3)–(5) say, worked out by hand."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -19,8 +21,8 @@ from motionese import (
     train,
 )
 from motionese.learning import activity, recognise_all
-from motionese.learning.descent import descend
 from motionese.learning.optimisers import recognition_rule
+from motionese.learning.recognition.descent import descend
 
 SIZES = {2: (2, 5), 3: (2, 4, 2), 4: (2, 3, 2, 1)}
 CHANNELS = Channels([Channel("x", "cm", -2.0, 2.0), Channel("y", "cm", 0.0, 5.0)])
@@ -30,26 +32,27 @@ LENGTHS = (6, 4, 7)
 def drawn(levels, **settings):
     """A network with a bias, and the same as arrays by name."""
     sizes = SIZES[levels]
-    net = MTRNN(
+    net = MTRNN.draw(
         [Level(size, tau) for size, tau in zip(sizes, (2.0, 5.0, 30.0, 70.0), strict=False)],
         key=jax.random.key(levels),
         channels=CHANNELS,
         **settings,
     )
-    net = net.with_parameters(net.weights, jnp.linspace(-0.5, 0.5, net.size))
+    net = replace(net, bias=jnp.linspace(-0.5, 0.5, net.size))
     arrays = {name: np.asarray(getattr(net, name)) for name in ("weights", "bias", "tau")}
     return net, {**arrays, "sizes": sizes, **settings}
 
 
 def ragged(seed=0):
-    """Motions with gaps, as Motions and in the unit interval for the twin."""
+    """Motions with gaps and weights, as Motions and in the unit interval for the twin."""
     rng = np.random.default_rng(seed)
     values = [rng.uniform((-2.0, 0.0), (2.0, 5.0), (length, 2)) for length in LENGTHS]
     masks = [rng.uniform(size=value.shape) < 0.7 for value in values]
     masks[0][0] = (True, False)
-    motions = Motions.from_arrays(values, CHANNELS, 10.0, observed=masks)
+    weights = [rng.uniform(0.0, 2.0, value.shape) for value in values]
+    motions = Motions.from_arrays(values, CHANNELS, 10.0, observed=masks, weights=weights)
     scaled = [0.1 + 0.8 * (value - (-2.0, 0.0)) / (4.0, 5.0) for value in values]
-    return motions, list(zip(scaled, masks, strict=True))
+    return motions, list(zip(scaled, masks, weights, strict=True))
 
 
 @pytest.mark.parametrize(
@@ -92,7 +95,9 @@ def test_training_equals_plain_descent_by_hand(
         bound=np.where(np.arange(net.size) < 2, np.inf, 0.3),
         clip=clip,
     )
-    starts = [by_hand.start(f, *motion, initial_io) for f, motion in zip(free, twins, strict=True)]
+    starts = [
+        by_hand.start(f, *motion[:2], initial_io) for f, motion in zip(free, twins, strict=True)
+    ]
     assert (np.abs(free[:, 2:]) == 0.3).any(), "the bound should be met"
     exact = 1e-6 if schedule == "cosine" else 1e-10  # optax works out the cosine in float32
     np.testing.assert_allclose(fit.losses, errors, rtol=exact)

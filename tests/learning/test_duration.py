@@ -19,7 +19,7 @@ def slow(motions):
     ]
     slowly = Motions.from_arrays(values, motions.channels, rate_hz=20.0)
     levels = [Level(3, tau=2.0), Level(12, tau=5.0), Level(2, tau=70.0)]
-    return train(MTRNN(levels, key=jax.random.key(0)), slowly, settings=Training(epochs=1500))
+    return train(MTRNN.draw(levels, key=jax.random.key(0)), slowly, settings=Training(epochs=1500))
 
 
 @pytest.mark.parametrize("scale", [0.5, 0.75, 1.5, 2.0])
@@ -65,6 +65,6 @@ def test_durations_that_cannot_be_are_refused(slow):
     for scale in (0.4, 2.1):
         with pytest.raises(SettingError, match=rf"between 0\.5 and 2, got {scale}"):
             generate(slow.network, state, 20, duration=scale)
-    fast = MTRNN([Level(3, 1.5), Level(4, 5.0)], key=jax.random.key(0))
+    fast = MTRNN.draw([Level(3, 1.5), Level(4, 5.0)], key=jax.random.key(0))
     with pytest.raises(SettingError, match=r"a time constant of 1\.5 steps shorter than a step"):
         fast.lasting(0.6)

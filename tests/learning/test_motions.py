@@ -1,13 +1,15 @@
 """Motions: ragged, masked, and padded by nothing that has a meaning."""
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
 
 from motionese import Channel, Channels, Motions, Training, train
 from motionese.errors import ChannelError, MotionError, SettingError
-from motionese.learning import Batch
-from motionese.learning.objective import predictions, squared_errors
+from motionese.learning.error import ERRORS
+from motionese.learning.objective import predictions
 
 NAMES = ["pan", "tilt"]
 
@@ -73,8 +75,33 @@ def test_a_batch_of_a_capacity_is_filled_up_with_nothing():
     assert large.sensed.shape == large.observed.shape == (4, 8, 2)
     np.testing.assert_array_equal(large.sensed[:2, :5], small.sensed)
     np.testing.assert_array_equal(large.observed[:2, :5], small.observed)
-    assert not np.asarray(large.observed[2:]).any()
-    assert not np.asarray(large.observed[:, 5:]).any()
+    for part in (large.observed, large.weight):
+        assert not np.asarray(part[2:]).any()
+        assert not np.asarray(part[:, 5:]).any()
+
+
+def test_weights_weigh_the_error_and_leave_the_input_as_it_was():
+    masks = [np.random.default_rng(i).random((n, 2)) < 0.7 for i, n in enumerate((5, 3))]
+    counts = [np.full((5, 2), 2.0), np.zeros((3, 2))]
+    plain, weighed = two(observed=masks), two(observed=masks, weights=counts)
+
+    np.testing.assert_array_equal(plain.batch().weight, plain.batch().observed)
+    np.testing.assert_array_equal(weighed.batch().observed, plain.batch().observed)
+    np.testing.assert_array_equal(weighed.batch().sensed, plain.batch().sensed)
+    np.testing.assert_array_equal(weighed.batch().weight[0], 2 * plain.batch().observed[0])
+    for part in (weighed[1], weighed.chosen(["1"]), weighed[1].showing(NAMES)):
+        assert not np.asarray(part.batch().weight).any()
+
+
+def test_weights_that_cannot_be_are_refused():
+    good = [np.ones((5, 2)), np.ones((3, 2))]
+    with pytest.raises(MotionError, match="2 motions need as many weights, got 1"):
+        two(weights=good[:1])
+    with pytest.raises(MotionError, match=r"motion '1': its weights have shape \(5, 2\), its"):
+        two(weights=[good[0], good[0]])
+    for wrong in (-1.0, np.nan):
+        with pytest.raises(MotionError, match="motion '1': weights must be finite and ≥ 0"):
+            two(weights=[good[0], wrong * good[1]])
 
 
 @pytest.mark.parametrize(("length", "capacity"), [(4, 2), (5, 1)])
@@ -95,14 +122,14 @@ def test_padding_has_no_meaning(network, motions):
     masked = motions.showing(["x", "z"])
     batch = masked.batch(length=35, capacity=4)
     noise = jax.random.normal(jax.random.key(3), batch.sensed.shape)
-    other = Batch(jax.numpy.where(batch.observed > 0, batch.sensed, 5 * noise), batch.observed)
+    other = batch._replace(sensed=jax.numpy.where(batch.observed > 0, batch.sensed, 5 * noise))
     free = jax.random.normal(jax.random.key(4), (4, network.size))
 
     @jax.jit
     def graded(batch):
         def loss(weights, bias, free):
-            net = network.with_parameters(weights, bias)
-            return squared_errors(predictions(net, batch, free, 0.3), batch).sum()
+            net = replace(network, weights=weights, bias=bias)
+            return ERRORS["squared"](predictions(net, batch, free, 0.3), batch).sum()
 
         return jax.value_and_grad(loss, (0, 1, 2))(network.weights, network.bias, free)
 

@@ -43,7 +43,7 @@ def test_a_batch_is_placed_as_its_members_are_and_left_as_it_was(fit):
 
 def test_a_network_whose_io_starts_from_zero_stays_there(motions):
     levels = [Level(3, 2.0), Level(4, 5.0)]
-    net = MTRNN(levels, key=jax.random.key(0), initial_io="zero", channels=motions.channels)
+    net = MTRNN.draw(levels, key=jax.random.key(0), initial_io="zero", channels=motions.channels)
     state = np.linspace(-1.0, 1.0, 7)
 
     np.testing.assert_array_equal(placed(net, state, {"x": 1.0}), state)

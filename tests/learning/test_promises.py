@@ -56,7 +56,7 @@ def test_the_quick_variants_cover_every_pair_of_choices():
 def test_every_variant_keeps_its_promises(
     motions, tmp_path, levels, optimiser, learned_bias, initial_io, scale
 ):
-    net = MTRNN(
+    net = MTRNN.draw(
         LEVELS[levels],
         key=jax.random.key(levels),
         learned_bias=learned_bias,

@@ -1,6 +1,9 @@
 """Recognition: from any part of a motion to its initial states, with a verdict."""
 
+from dataclasses import replace
+
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,9 +12,11 @@ from hypothesis import strategies as st
 from motionese import Motions, Recognition, generate, recognise
 from motionese.errors import ChannelError, MotionError, SettingError
 from motionese.learning import Ending, Training, recognise_all
-from motionese.learning.descent import descend
-from motionese.learning.epochs import begin, run_epochs
+from motionese.learning.error import ERRORS
 from motionese.learning.optimisers import recognition_rule, training_rule
+from motionese.learning.parameters import Parameters
+from motionese.learning.recognition.descent import descend
+from motionese.learning.training.epochs import Iterate, run_epochs
 
 KEY = jax.random.key(2)
 QUICK = Recognition(iterations=300)
@@ -168,7 +173,7 @@ def test_verdicts(fit, motions):
 
 
 def test_a_network_that_computes_nothing_finite_is_a_verdict(fit, motions):
-    broken = fit.network.with_parameters(fit.network.weights * np.nan, fit.network.bias)
+    broken = replace(fit.network, weights=fit.network.weights * np.nan, bias=fit.network.bias)
 
     found = recognise(broken, motions[0], settings=TOLD)
 
@@ -219,9 +224,15 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     free = np.zeros((3, starts, 17), np.float32)
     rule, none = recognition_rule("adam", 0.1, 0.9, 10), np.float32(0.0)
     paid = operations(descend, net, batch, free, bound, rule, none, 10, None)
-    trained = training_rule(Training(), 10, True)
-    state = begin(net, 3, None, trained)
-    training = operations(run_epochs, state, net, batch, trained, none, bound, None, KEY, 10)
+    learner, learned = (
+        Parameters(net, jnp.asarray(free[:, 0])),
+        ("weights", "bias", "initial_states"),
+    )
+    trained, start = training_rule(Training(), learned), learner.free(learned)
+    state, error = Iterate(start, trained.init(start), jnp.asarray(0)), ERRORS["squared"]
+    training = operations(
+        run_epochs, state, learner, batch, trained, error, none, bound, None, KEY, 10
+    )
     assert paid < starts * weights_gradient
     assert training > weights_gradient
 

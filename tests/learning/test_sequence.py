@@ -1,5 +1,6 @@
 """One motion after another: no jump between them, and each of them reached."""
 
+from dataclasses import replace
 from itertools import permutations
 
 import jax
@@ -68,8 +69,10 @@ def test_a_motion_begins_where_the_one_before_it_has_come_to(fit):
 
 @pytest.mark.parametrize("bias", [0.0, 1.0])
 def test_what_stands_still_needs_no_blend_and_takes_no_harm(motions, bias):
-    net = MTRNN([Level(3, 2.0), Level(2, 5.0)], key=jax.random.key(0), channels=motions.channels)
-    net = net.with_parameters(jnp.zeros((5, 5)), jnp.array([bias, 0.0, 0.0, 0.0, 0.0]))
+    net = MTRNN.draw(
+        [Level(3, 2.0), Level(2, 5.0)], key=jax.random.key(0), channels=motions.channels
+    )
+    net = replace(net, weights=jnp.zeros((5, 5)), bias=jnp.array([bias, 0.0, 0.0, 0.0, 0.0]))
     still = np.array([bias, 0.0, 0.0, 0.0, 0.0])
     elsewhere = np.array([bias, 0.0, 0.0, 1.0, 0.0])
 
@@ -80,9 +83,11 @@ def test_what_stands_still_needs_no_blend_and_takes_no_harm(motions, bias):
 
 def test_two_that_stand_still_at_different_places_are_blended_as_slowly_as_may_be(motions):
     # A context unit that never changes holds the first channel where it is.
-    net = MTRNN([Level(3, 2.0), Level(1, 1e9)], key=jax.random.key(0), channels=motions.channels)
+    net = MTRNN.draw(
+        [Level(3, 2.0), Level(1, 1e9)], key=jax.random.key(0), channels=motions.channels
+    )
     weights = jnp.zeros((4, 4)).at[0, 3].set(2.0)
-    net = net.with_parameters(weights, jnp.zeros(4))
+    net = replace(net, weights=weights, bias=jnp.zeros(4))
     states = [np.array([1.0, 0.0, 0.0, 0.0]), np.array([1.5, 0.0, 0.0, np.log(3.0)])]
     here, there = (generate(net, state, 20)[:, 0] for state in states)
     assert np.ptp(here) == np.ptp(there) == 0.0

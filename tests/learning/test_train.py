@@ -1,5 +1,7 @@
 """Training: what it promises for every optimiser, bound, noise, and ending."""
 
+from dataclasses import replace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -105,7 +107,7 @@ def test_state_noise_needs_a_key(network, motions):
 
 
 def test_padding_changes_nothing_even_with_noise(float64, motions):
-    net = MTRNN([Level(3, 2.0), Level(5, 5.0), Level(2, 70.0)], key=jax.random.key(0))
+    net = MTRNN.draw([Level(3, 2.0), Level(5, 5.0), Level(2, 70.0)], key=jax.random.key(0))
     chosen, key = settings(epochs=20, noise={"cf": 0.2}), jax.random.key(5)
 
     plain = train(net, motions, settings=chosen, key=key)
@@ -119,8 +121,8 @@ def test_padding_changes_nothing_even_with_noise(float64, motions):
 
 def unstable():
     """A network at a fixed point that it leaves by a factor of 2.5e5 a step: gradients overflow."""
-    net = MTRNN([Level(1, 2.0), Level(1, 1.0)], key=jax.random.key(0))
-    return net.with_parameters(jnp.array([[0.0, 1.0], [0.0, 1e6]]), jnp.array([0.0, -5e5]))
+    net = MTRNN.draw([Level(1, 2.0), Level(1, 1.0)], key=jax.random.key(0))
+    return replace(net, weights=jnp.array([[0.0, 1.0], [0.0, 1e6]]), bias=jnp.array([0.0, -5e5]))
 
 
 def test_divergence_is_a_status_and_what_was_learned_before_is_kept():

@@ -1,5 +1,7 @@
 """Growth: what was learned is kept, bit by bit where the new level has no influence."""
 
+from dataclasses import replace
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -7,14 +9,14 @@ import numpy as np
 import pytest
 
 from motionese.errors import SettingError
-from motionese.network import MTRNN, Level, grow, rollout
+from motionese.network import MTRNN, Level, grow, predict, rollout
 
 NEW = Level(2, tau=70.0)
 
 
 def network(*sizes, key=0):
     levels = [Level(size, 1.0 + 3.0 * place) for place, size in enumerate(sizes)]
-    return MTRNN(levels, key=jax.random.key(key))
+    return MTRNN.draw(levels, key=jax.random.key(key))
 
 
 def run(net, rows=12, batch=3):
@@ -58,7 +60,7 @@ def test_without_influence_repeated_growth_still_computes_the_same_bits():
 @pytest.mark.parametrize("influence", [0.0, 0.25, 1.0])
 def test_old_weights_bias_and_time_constants_are_kept(influence):
     old = network(3, 8)
-    old = old.with_parameters(old.weights, jnp.linspace(-1.0, 1.0, old.size))
+    old = replace(old, bias=jnp.linspace(-1.0, 1.0, old.size))
 
     grown = grow(old, NEW, key=jax.random.key(1), influence=influence)
 
@@ -100,3 +102,16 @@ def test_weights_without_influence_have_a_gradient_and_leave_zero():
 def test_an_influence_below_zero_is_refused(influence):
     with pytest.raises(SettingError, match="influence of a new level must be ≥ 0, got"):
         grow(network(3, 8), NEW, key=jax.random.key(1), influence=float(influence))
+
+
+def test_a_variance_that_was_learned_is_kept():
+    old = MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0), variance=True)
+    old = replace(old, variance_weights=jax.random.normal(jax.random.key(1), (2, 4)))
+
+    grown = grow(old, NEW, key=jax.random.key(2), influence=0.0)
+
+    sensed, share = jnp.full((3, 8, 2), 0.4), jnp.full((3, 8, 2), 0.5)
+    before = predict(old, jnp.ones((3, 6)), sensed, share)
+    after = predict(grown, jnp.ones((3, 8)), sensed, share)
+    assert grown.variance_weights.shape == (2, 6)
+    np.testing.assert_allclose(after.variance, before.variance, rtol=1e-5)

@@ -1,6 +1,7 @@
 """Levels: sizes, time constants, names; what is refused, and in which words."""
 
 import math
+from dataclasses import replace
 
 import jax
 import numpy as np
@@ -14,7 +15,7 @@ IO, CF, CS = Level(3, tau=2.0), Level(5, tau=5.0), Level(2, tau=70.0)
 
 
 def network(*levels, **settings):
-    return MTRNN(levels, key=jax.random.key(0), **settings)
+    return MTRNN.draw(levels, key=jax.random.key(0), **settings)
 
 
 def test_levels_are_named_by_their_place_unless_they_have_a_name():
@@ -31,6 +32,26 @@ def test_every_unit_has_the_time_constant_of_its_level_or_its_own():
     net = network(IO, Level(2, tau=(4.0, 6.0)), CS)
 
     np.testing.assert_array_equal(net.tau, [2, 2, 2, 4, 6, 70, 70])
+
+
+def test_levels_tell_the_time_constants_that_the_network_has():
+    net = network(IO, Level(2, tau=(4.0, 6.0)), CS)
+
+    assert [level.tau for level in net.levels] == [2.0, (4.0, 6.0), 70.0]
+    assert [level.tau for level in net.lasting(1.5).levels] == [3.0, (6.0, 9.0), 105.0]
+
+
+@pytest.mark.parametrize(
+    ("fields", "match"),
+    [
+        ({"bias": np.zeros(9)}, r"bias must have shape \(10,\), got \(9,\)"),
+        ({"sizes": (3, 5)}, r"weights must have shape \(8, 8\), got \(10, 10\)"),
+        ({"names": ("io", "cf", "io")}, "level names must be unique"),
+    ],
+)
+def test_fields_that_do_not_fit_each_other_are_refused(unchecked, fields, match):
+    with pytest.raises(SettingError, match=match):
+        replace(network(IO, CF, CS), **fields)
 
 
 @pytest.mark.parametrize("tau", [0.99, 0.0, -2.0, math.inf, math.nan, (2.0, 0.5)])

@@ -31,7 +31,7 @@ def test_a_level_is_wired_to_itself_and_its_neighbours_only(sizes):
 )
 def test_initial_weights_have_the_scale_of_their_block(scale, senders):
     levels = [Level(size, 2.0) for size in SIZES]
-    weights = np.asarray(MTRNN(levels, key=jax.random.key(1), gain=3.0, scale=scale).weights)
+    weights = np.asarray(MTRNN.draw(levels, key=jax.random.key(1), gain=3.0, scale=scale).weights)
 
     for (i, j), block in blocks(SIZES):
         if abs(i - j) > 1:
@@ -46,7 +46,7 @@ def test_initial_weights_have_the_scale_of_their_block(scale, senders):
 
 def test_the_same_key_draws_the_same_weights_and_another_key_others():
     levels = [Level(3, 2.0), Level(5, 5.0)]
-    first, again, other = (MTRNN(levels, key=jax.random.key(k)).weights for k in (0, 0, 1))
+    first, again, other = (MTRNN.draw(levels, key=jax.random.key(k)).weights for k in (0, 0, 1))
 
     np.testing.assert_array_equal(first, again)
     assert (np.asarray(first) != np.asarray(other)).all()

@@ -5,22 +5,28 @@ import time
 from page.conftest import FILMED
 
 PRIMITIVES = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑")
+COUNTING = """
+window.taken = 0;
+addEventListener("pointerdown", () => (window.taken += 1), true);
+addEventListener("pointermove", (event) => {
+  if (event.buttons) window.taken += event.getCoalescedEvents().length || 1;
+}, true);
+"""
+"""Has the page count by itself what its device takes while the pen is down."""
 PAIRS = ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑", "LL ↑↓", "LR ↑↓")
 
 
 def test_every_sample_of_the_pointer_reaches_the_robot(person):
-    before, began = person.points_sent(), time.monotonic()
+    """However long browser and robot take over it; how long is what the benchmark measures."""
+    person.page.evaluate(COUNTING)
     moves = person.draws("UR ←↓", 1.85)
-    took = time.monotonic() - began
-    understood = person.state()["understandings"]
+    person.until(lambda state: state["understandings"])  # while the pen is still down
     person.page.mouse.up()
-    verdict = person.until(lambda state: state["verdict"])["verdict"]
-    assert moves >= 200
-    assert took < 4.5
-    assert person.points_sent() - before >= 0.95 * moves
-    assert person.state()["points"] >= 0.95 * moves
-    assert understood >= 5 * 3.5, "fewer than five times a second"
-    assert verdict["ms"] <= 500
+    person.until(lambda state: state["verdict"])
+    taken = person.page.evaluate("window.taken")
+    assert taken >= 0.95 * moves
+    assert person.state()["points"] == taken
+    assert person.points_sent() == taken
 
 
 def test_the_arrows_are_what_was_drawn(person):

@@ -12,7 +12,7 @@ from mcap.writer import CompressionType, Writer
 
 from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
-from motionese.recordings.formats.mcap_numbers import numbers
+from motionese.recordings.formats.mcap import numbers
 
 START = 1_700_000_000_000_000_000
 """A log time of today [ns], which a float does not hold exactly."""

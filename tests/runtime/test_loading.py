@@ -19,7 +19,7 @@ from motionese.learning import write_fit
 from motionese.network import MTRNN, Level, storage, write_network
 from motionese.runtime import load as load_here
 from motionese.runtime import loading
-from motionese.runtime.safetensors_file import parse
+from motionese.runtime.loading import parse
 
 ALONE = """
 import sys
@@ -39,7 +39,7 @@ from motionese.runtime import ControlLoop, load
 
 sent = []
 loop = ControlLoop(load(sys.argv[1]), lambda: {"lift": 0.5}, sent.append, watchdog_s=5.0)
-print(loop.run("reach").ended, len(sent))
+print(loop.run("reach").ending, len(sent))
 """
 
 
@@ -82,7 +82,7 @@ def test_a_trained_fit_is_read(tmp_path):
     t = np.linspace(0.0, 3.0, 20)[:, None]
     motions = Motions.from_arrays([np.hstack([np.sin(t), t])], ["x", "y"], 10.0, names=["a"])
     fit = train(
-        MTRNN([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0)),
+        MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0)),
         motions,
         settings=Training(epochs=1),
     )

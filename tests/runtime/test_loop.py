@@ -7,8 +7,8 @@ import pytest
 from small_models import Clock
 
 from motionese.errors import ControlError
-from motionese.runtime import ControlLoop, Ended, Limits, Part, Player
-from motionese.runtime.parts import scheduled
+from motionese.runtime import ControlLoop, Ending, Limits, Part, Player
+from motionese.runtime.schedule import schedule
 
 HERE = {"lift": 0.4, "turn": -20.0, "grip": 0.5}
 WIDE = Limits(ranges={"lift": (-9, 9), "turn": (-999, 999), "grip": (-9, 9)})
@@ -44,9 +44,9 @@ def test_the_loop_sends_what_the_player_plays_from_where_the_robot_is(model, rob
     ran = loop_of(model, robot).run("reach")
 
     player = Player(model, model.begin("reach", HERE))
-    player.set_out(scheduled(model, ("reach",))[0].blend)
+    player.set_out(schedule(model, ("reach",))[0].blend)
     np.testing.assert_allclose(robot.sent, [player.step() for _ in range(40)], rtol=1e-6)
-    assert (ran.ended, ran.steps, ran.missed, ran.skipped) == (Ended.DONE, 40, 0, 0)
+    assert (ran.ending, ran.steps, ran.missed, ran.skipped) == (Ending.DONE, 40, 0, 0)
     assert ran.sentence == "everything was played to its end, 40 steps"
     assert robot.stops == 0
 
@@ -149,7 +149,7 @@ def test_nothing_is_sent_before_the_robot_has_said_where_it_is(model, robot):
     assert robot.times[0] == pytest.approx(0.151)
 
     silent = loop_of(model, robot, lambda: None, watchdog_s=0.3).run("reach")
-    assert (silent.ended, silent.steps) == (Ended.SENSORS_SILENT, 0)
+    assert (silent.ending, silent.steps) == (Ending.SENSORS_SILENT, 0)
     assert len(robot.sent) == 3
 
 
@@ -159,7 +159,7 @@ def test_sensors_that_fall_silent_end_the_loop_and_stop_the_robot(model, robot):
 
     ran = loop_of(model, robot, sense, watchdog_s=0.22).run("reach")
 
-    assert ran.ended is Ended.SENSORS_SILENT
+    assert ran.ending is Ending.SENSORS_SILENT
     assert ran.sentence == (
         "no reading came for more than 0.22 s; the last command sent is that of step 15"
     )
@@ -170,7 +170,7 @@ def test_end_ends_the_loop_before_its_next_command(model, robot):
     loop = loop_of(model, robot, lambda: loop.end() if len(robot.sent) == 4 else HERE)
     ran = loop.run("reach")
 
-    assert (ran.ended, ran.steps, len(robot.sent)) == (Ended.STOPPED, 4, 4)
+    assert (ran.ending, ran.steps, len(robot.sent)) == (Ending.STOPPED, 4, 4)
     assert ran.sentence == "the loop was asked to end, after 4 steps"
     assert robot.stops == 0
 
@@ -179,8 +179,8 @@ def test_what_asks_to_end_before_a_run_ends_that_run_alone(model, robot):
     loop = loop_of(model, robot)
     loop.end()
 
-    assert (loop.run("reach").ended, robot.sent) == (Ended.STOPPED, [])
-    assert loop.run("reach").ended is Ended.DONE
+    assert (loop.run("reach").ending, robot.sent) == (Ending.STOPPED, [])
+    assert loop.run("reach").ending is Ending.DONE
 
 
 @pytest.mark.parametrize("where", ["sense", "act"])
@@ -216,7 +216,7 @@ def test_a_prediction_that_is_not_finite_is_never_sent(model, robot):
     with np.errstate(over="ignore", invalid="ignore"):
         ran = loop_of(broken, robot).run("reach")
 
-    assert ran.ended is Ended.NOT_FINITE
+    assert ran.ending is Ending.NOT_FINITE
     assert (len(robot.sent), robot.stops) == (ran.steps, 1)
     assert np.isfinite(robot.sent).all()
     assert "not finite; it was not sent" in ran.sentence

@@ -8,8 +8,7 @@ from small_models import CHANNELS, INITIAL_IO, Clock
 
 from motionese import generate_sequence
 from motionese.runtime import ControlLoop, Limits, Part, Player
-from motionese.runtime.parts import scheduled
-from motionese.runtime.transition import Course, Transition, course
+from motionese.runtime.schedule import Course, course, rows_between, schedule
 
 WIDTHS = CHANNELS.interval_widths
 WIDE = Limits(ranges={"lift": (-9, 9), "turn": (-999, 999), "grip": (-9, 9)})
@@ -66,12 +65,12 @@ def test_the_way_from_where_the_robot_is_adds_no_speed(model):
     """A robot that is elsewhere rushes to the first motion; what follows is no faster for it."""
     first = Part("reach", blend=0)
     path = sent(model, first, Part("wave", 200), sense=lambda: [1.9, 40.0, 0.05])
-    own = Transition(course(model, "reach", 41), course(model, "wave", 200))
-    rows = own.rows_from(path[40])
+    former, latter = course(model, "reach", 41), course(model, "wave", 200)
+    rows = rows_between(former, latter, path[40])
 
     given = sent(model, first, Part("wave", 200, blend=rows), sense=lambda: [1.9, 40.0, 0.05])
 
-    rushed = np.abs(np.diff(path[:40], axis=0)).max(0) > own.former.speed
+    rushed = np.abs(np.diff(path[:40], axis=0)).max(0) > former.speed
     assert rushed.any()
     np.testing.assert_array_equal(path, given)
 
@@ -83,9 +82,9 @@ def test_every_part_is_played_beforehand_as_long_as_it_will_be(model, monkeypatc
         played.append((start, rows))
         return Course(np.zeros(3), np.full(3, {"reach": 0.1, "wave": 0.01}[start]), rows)
 
-    monkeypatch.setattr("motionese.runtime.parts.course", course)
+    monkeypatch.setattr("motionese.runtime.schedule.course", course)
     first, last = Part("reach", blend=0), Part("wave", blend=3)
-    parts = scheduled(model, (first, Part("wave", 200), Part("wave", 900), last))
+    parts = schedule(model, (first, Part("wave", 200), Part("wave", 900), last))
 
     assert played == [("reach", 41), ("wave", 200), ("wave", 900), ("wave", 31)]
     assert [part.steps for part in parts] == [40, 200, 900, 31]
@@ -95,11 +94,11 @@ def test_every_part_is_played_beforehand_as_long_as_it_will_be(model, monkeypatc
 
 
 def test_what_has_its_blends_is_not_played_beforehand(model, monkeypatch):
-    monkeypatch.setattr("motionese.runtime.parts.course", lambda *_: pytest.fail("played"))
+    monkeypatch.setattr("motionese.runtime.schedule.course", lambda *_: pytest.fail("played"))
 
     first = Part("reach", blend=0)
-    scheduled(model, (first,))
-    scheduled(model, (first, Part("wave", blend=0), Part("reach", blend=20)))
+    schedule(model, (first,))
+    schedule(model, (first, Part("wave", blend=0), Part("reach", blend=20)))
 
 
 @pytest.mark.parametrize(
@@ -120,10 +119,10 @@ def test_rows_of_a_transition(here, speed, rows, expected):
     faster = Course(np.zeros(2), np.array(speed), 50)
     slower = Course(np.zeros(2), 0.9 * np.array(speed), rows)
 
-    assert Transition(faster, slower).rows_from(np.array(here)) == expected
+    assert rows_between(faster, slower, np.array(here)) == expected
     if rows > 50:
-        turned = Transition(slower, Course(np.zeros(2), np.array(speed), rows))
-        assert turned.rows_from(np.array(here)) == expected
+        faster = Course(np.zeros(2), np.array(speed), rows)
+        assert rows_between(slower, faster, np.array(here)) == expected
 
 
 @pytest.mark.parametrize("saved", INITIAL_IO, indirect=True)

@@ -4,9 +4,8 @@ import time
 
 import pytest
 
-from motionese.runtime import ControlLoop, Ended, Part
-from motionese.runtime.clock import MonotonicClock
-from motionese.runtime.watchdog import Once, Watchdog
+from motionese.runtime import ControlLoop, Ending, Part
+from motionese.runtime.timing import Clock, Once, Watchdog
 
 HERE = {"lift": 0.4}
 
@@ -36,7 +35,7 @@ def test_a_cycle_that_hangs_stops_the_robot_once_and_sends_nothing_more(model, w
     ran = loop.run("reach")
 
     assert stops == [2]
-    assert ran.ended is Ended.HUNG
+    assert ran.ending is Ending.HUNG
     assert len(sent) == ran.steps == (2 if where == "sense" else 3)
     assert "did not return for more than 0.15 s" in ran.sentence
 
@@ -51,7 +50,7 @@ def test_a_hang_in_the_last_cycle_is_told(model):
         stop=lambda: stops.append(1),
     )
 
-    assert loop.run(Part("reach", 1)).ended is Ended.HUNG
+    assert loop.run(Part("reach", 1)).ending is Ending.HUNG
     assert stops == [1]
 
 
@@ -61,7 +60,7 @@ def test_a_loop_that_lives_is_left_alone(model):
         model, lambda: HERE, lambda _: None, watchdog_s=0.15, stop=lambda: stops.append(1)
     ).run(Part("reach", 8))
 
-    assert ran.ended is Ended.DONE
+    assert ran.ending is Ending.DONE
     assert stops == []
     assert time.perf_counter() - began > 7 / 20
 
@@ -83,7 +82,7 @@ def test_once_is_once_and_nothing_is_nothing():
 
 
 def test_the_clock_is_never_early_and_does_not_wait_for_the_past():
-    clock = MonotonicClock()
+    clock = Clock()
     moment = clock.now() + 0.02
     clock.sleep_until(moment)
     assert clock.now() >= moment

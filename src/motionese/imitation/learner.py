@@ -203,7 +203,7 @@ class Learner:
 def newborn(scene: Scene, levels: int) -> Learner:
     """Draw the network of a scene's seed, with so many levels; it has done nothing yet."""
     settings, channels = scene.settings.network, scene.body.channels
-    network = MTRNN(
+    network = MTRNN.draw(
         settings.drawn_levels(channels)[:levels],
         key=key_for(scene.seed, "network"),
         gain=settings.gain,

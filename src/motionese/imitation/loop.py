@@ -21,7 +21,7 @@ from motionese.imitation.learner import Learner
 from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.imitation.performance import Performance, Watched
 from motionese.imitation.scene import Scene
-from motionese.learning import Found, Recognition, Status, generate, recognise_all
+from motionese.learning import Recognition, RecognitionResult, Status, generate, recognise_all
 from motionese.task import Attempt, PrimitiveSequence
 
 Row = dict[str, Any]
@@ -34,7 +34,7 @@ class Imitation:
 
     sequence: PrimitiveSequence
     watched: Watched
-    found: Found
+    found: RecognitionResult
     performance: Performance
 
     def measures(self, scene: Scene) -> Row:

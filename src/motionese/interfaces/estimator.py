@@ -14,9 +14,9 @@ from motionese.errors import SettingError, needs
 from motionese.interfaces.commands.train import read_levels
 from motionese.learning import (
     Fit,
-    Found,
     Motions,
     Recognition,
+    RecognitionResult,
     Training,
     recognise_all,
     train,
@@ -92,7 +92,7 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
             values, [str(n) for n in names], self.rate_hz, observed=[~np.isnan(v) for v in values]
         )
         levels = [Level(len(motions.channels), self.io_tau), *read_levels(self.levels)]
-        network = MTRNN(levels, key=self._key())
+        network = MTRNN.draw(levels, key=self._key())
         self.fit_: Fit = train(
             network, motions, epochs=self.epochs, settings=self.training, key=self._key()
         )
@@ -101,7 +101,7 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
             warnings.warn(str(self.fit_.status), ConvergenceWarning, stacklevel=2)
         return self
 
-    def recognise(self, X: Any) -> list[Found]:
+    def recognise(self, X: Any) -> list[RecognitionResult]:
         """Recognise every motion from what is observed in it, and tell how well that went."""
         check_is_fitted(self)
         values = self._checked(X, reset=False)

@@ -7,7 +7,7 @@ from jaxtyping import Array, Float
 from numpy import ndarray
 
 from motionese.channels import Channels
-from motionese.learning.batch import Batch
+from motionese.learning.motions.batch import Batch
 from motionese.learning.objective import predictions
 from motionese.network import MTRNN
 
@@ -29,7 +29,7 @@ def predicted(
 
 @eqx.filter_jit
 def _predicted(network: MTRNN, batch: Batch, initial: Array, share: Array) -> Array:
-    return predictions(network, batch, initial, share)
+    return predictions(network, batch, initial, share).mean
 
 
 def errors_of(

@@ -7,6 +7,7 @@ from numpy import ndarray
 
 from motionese.errors import NO_MOTION, SettingError, unknown
 from motionese.learning.accuracy import share_of_range
+from motionese.learning.memory import Memory
 from motionese.learning.status import Status
 from motionese.network import MTRNN
 
@@ -46,6 +47,11 @@ class Fit:
     validation_names: tuple[str, ...]
     validation_error: Float[ndarray, "H D"]
     status: Status
+
+    @property
+    def memory(self) -> Memory:
+        """The motions it learned, as recognition starts from them."""
+        return Memory(self.names, self.initial_states, self.closed_loop_error)
 
     def index(self, name: str) -> int:
         """Return which motion has this name; `SettingError` if none has."""

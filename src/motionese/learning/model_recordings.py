@@ -9,8 +9,8 @@ import numpy as np
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
-from motionese.learning.motions import Motions
-from motionese.learning.recognise import SAME_RATE
+from motionese.learning.motions.motions import Motions
+from motionese.learning.recognition.recognise import SAME_RATE
 from motionese.recordings import choose, chosen, prepare, read
 
 

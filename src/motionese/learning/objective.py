@@ -1,11 +1,14 @@
-"""Equation (3): the summed squared error of predictions, and what the network starts from."""
+"""What a network predicts of motions: the channels they share, where it starts, what follows."""
 
-import jax
+from dataclasses import replace
+
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from motionese.learning.batch import Batch
-from motionese.network import MTRNN, rollout
+from motionese.errors import SettingError
+from motionese.learning.motions.batch import Batch
+from motionese.learning.motions.motions import Motions
+from motionese.network import MTRNN, Prediction, predict
 
 
 def initial_potentials(
@@ -32,7 +35,7 @@ def predictions(
     free: Float[Array, "S N"],
     teacher_forcing: float | Float[Array, ""],
     noise: Float[Array, "S T N"] | None = None,
-) -> Float[Array, "S T D"]:
+) -> Prediction:
     """Predict every row of the motions from the rows before it.
 
     Args:
@@ -45,10 +48,29 @@ def predictions(
     """
     share = (batch.observed * teacher_forcing).at[:, 0].set(batch.observed[:, 0])
     start = initial_potentials(network, batch, free)
-    potentials = rollout(network, start, batch.sensed, share, noise)
-    return jax.nn.sigmoid(potentials[..., : network.io_size])
+    return predict(network, start, batch.sensed, share, noise)
 
 
-def squared_errors(predicted: Float[Array, "S T D"], batch: Batch) -> Float[Array, " S"]:
-    """Equation (3), summed over the observed values of every motion; row 0 predicts nothing."""
-    return (((predicted - batch.sensed) ** 2) * batch.observed)[:, 1:].sum((1, 2))
+def with_shared_channels(network: MTRNN, motions: Motions) -> tuple[MTRNN, Motions]:
+    """Return a network that carries channels, and the motions scaled by exactly these.
+
+    A network that carries channels keeps them: motions read later, whose ranges may have been
+    taken from their own data, are scaled as those it was trained on. One without takes the
+    motions'.
+
+    Raises:
+        SettingError: The names differ, or there is not one IO unit per channel.
+    """
+    if network.channels is not None and network.channels.names != motions.channels.names:
+        raise SettingError(
+            f"the network's channels are {', '.join(network.channels.names)}, "
+            f"the motions' {', '.join(motions.channels.names)}"
+        )
+    if network.io_size != len(motions.channels):
+        raise SettingError(
+            f"the network has {network.io_size} IO units, "
+            f"the motions {len(motions.channels)} channels"
+        )
+    if network.channels is None:
+        return replace(network, channels=motions.channels), motions
+    return network, motions.scaled_by(network.channels)

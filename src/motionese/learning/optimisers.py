@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import optax
 
+from motionese.learning.parameters import PARAMETERS
 from motionese.learning.settings import Optimiser, Schedule, Training
 
 SLOWER, SLOWER_FROM = 0.3, 0.7
@@ -42,34 +43,29 @@ def _schedule(name: Schedule, rate: float, epochs: int) -> float | optax.Schedul
 
 
 @lru_cache(maxsize=64)
-def _training_rule(settings: _Rule, epochs: int, bias: bool) -> optax.GradientTransformation:
-    # What is not learned is left out before the clip, whose norm it must not enlarge.
-    fixed = {"weights": False, "bias": not bias, "initial": False}
-    steps = [optax.masked(optax.set_to_zero(), fixed)]
-    if settings.clip:
-        steps.append(optax.clip_by_global_norm(settings.clip))
-    by_group = {
-        group: update_rule(
-            settings.optimiser, _schedule(settings.schedule, rate, epochs), settings.momentum
-        )
-        for group, rate in (
-            ("weights", settings.weight_rate),
-            ("initial", settings.initial_rate),
-        )
-    }
-    groups = {"weights": "weights", "bias": "weights", "initial": "initial"}
-    return optax.chain(*steps, optax.multi_transform(by_group, groups))
-
-
-def training_rule(
-    settings: Training, epochs: int, learned_bias: bool
+def _training_rule(
+    settings: _Rule, epochs: int, learned: tuple[str, ...]
 ) -> optax.GradientTransformation:
-    """Return equations (4) and (5): α for weights and bias, β for initial states, one joint clip.
+    rates = {name: PARAMETERS[name].rate for name in learned}
+    by_rate = {
+        rate: update_rule(
+            settings.optimiser,
+            _schedule(settings.schedule, getattr(settings, rate), epochs),
+            settings.momentum,
+        )
+        for rate in dict.fromkeys(rates.values())
+    }
+    clip = [optax.clip_by_global_norm(settings.clip)] if settings.clip else []
+    return optax.chain(*clip, optax.multi_transform(by_rate, rates))
+
+
+def training_rule(settings: Training, learned: tuple[str, ...]) -> optax.GradientTransformation:
+    """Return equations (4) and (5): every parameter moves at its rate of the table, one joint clip.
 
     Equal settings give the same object, so that compiled code is found again.
     """
     rule = _Rule(**{name: getattr(settings, name) for name in _Rule._fields})
-    return _training_rule(rule, epochs if settings.schedule == "cosine" else 0, learned_bias)
+    return _training_rule(rule, settings.epochs if settings.schedule == "cosine" else 0, learned)
 
 
 @lru_cache(maxsize=64)

@@ -6,6 +6,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 Optimiser = Literal["descent", "momentum", "adam"]
 Schedule = Literal["constant", "cosine"]
+ErrorName = Literal["squared", "gaussian"]
+Learned = Literal["weights", "bias", "tau", "variance", "initial_states"]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 ByLevel = dict[str, NotNegative]
 Bound = NotNegative | ByLevel
@@ -21,15 +23,19 @@ class Training(BaseModel):
 
     Attributes:
         epochs: Updates, each with the gradient of all motions.
+        learned: What is learned, of what the network has; see `learning.parameters`. With "tau"
+            the time constants as well, one factor a level.
+        error: Squared (equation (3)), or Gaussian: the negative log likelihood with the variance
+            that the network predicts, for one drawn with `variance=True`.
         optimiser: Plain gradient descent (the paper), with momentum, or Adam.
-        weight_rate: α of equation (4), for the weights and the bias.
+        weight_rate: α of equation (4), for the weights, the bias and what else the network has.
         initial_rate: β of equation (5), for every motion's own initial states.
         schedule: Rates that stay, or that rise over the first 5 % of the epochs and then fall
             along half a cosine to a hundredth.
         momentum: Of `optimiser = "momentum"`.
-        clip: Largest joint norm of the gradient of weights and initial states; 0 for none. With
-            Adam it holds back the few epochs in which gradients explode: without it, rates must
-            be ten times smaller.
+        clip: Largest joint norm of the gradient of all that is learned; 0 for none. With Adam it
+            holds back the few epochs in which gradients explode: without it, rates must be ten
+            times smaller.
         teacher_forcing: Share of the sensed value in an input, the rest being the network's own
             prediction: 1 teacher forcing, 0 closed loop.
         bound: Largest |u_0| of the initial states after every update, for all context levels or
@@ -45,6 +51,10 @@ class Training(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     epochs: int = Field(default=3000, ge=1)
+    learned: tuple[Learned, ...] = Field(
+        default=("weights", "bias", "variance", "initial_states"), min_length=1
+    )
+    error: ErrorName = "squared"
     optimiser: Optimiser = "adam"
     weight_rate: Rate = 0.05
     initial_rate: Rate = 0.3

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from motionese.errors import MotionError
-from motionese.learning.motions import Motions
+from motionese.learning.motions.motions import Motions
 
 ENOUGH = 5
 """From so many motions on one at least is held out by default."""

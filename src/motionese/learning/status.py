@@ -1,7 +1,8 @@
-"""How a training or a recognition ended: a status with a sentence, never a silent NaN."""
+"""How far a training is, and how it or a recognition ended: a status, never a silent NaN."""
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 
 class Ending(Enum):
@@ -28,3 +29,21 @@ class Status:
 
     def __str__(self) -> str:
         return f"{self.ending.value}: {self.sentence}"
+
+
+class Progress(NamedTuple):
+    """How far a training is.
+
+    Attributes:
+        epoch: Epochs done.
+        loss: Equation (3) before the last update.
+        closed_loop_error: Root mean squared error in closed loop, as a share of range.
+        validation_loss: Of the held-out motions; None without any.
+        validation_error: `closed_loop_error` of the held-out motions; None without any.
+    """
+
+    epoch: int
+    loss: float
+    closed_loop_error: float
+    validation_loss: float | None
+    validation_error: float | None

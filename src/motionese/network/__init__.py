@@ -1,9 +1,11 @@
-"""The MTRNN: levels and wiring, whole rollouts with their adjoint, growth, storage."""
+"""The MTRNN: levels and wiring, a step, whole rollouts with their adjoint, growth, storage."""
 
 from motionese.network.growth import grow
 from motionese.network.levels import Level
 from motionese.network.mtrnn import MTRNN, InitialIO
+from motionese.network.prediction import Prediction, predict, variance_of
 from motionese.network.rollout import rollout
+from motionese.network.step import step
 from motionese.network.storage import read_network, write_network
 from motionese.network.wiring import Scale, wiring
 
@@ -11,10 +13,14 @@ __all__ = [
     "MTRNN",
     "InitialIO",
     "Level",
+    "Prediction",
     "Scale",
     "grow",
+    "predict",
     "read_network",
     "rollout",
+    "step",
+    "variance_of",
     "wiring",
     "write_network",
 ]

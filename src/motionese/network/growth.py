@@ -1,14 +1,15 @@
 """Growth: a trained network gets a further, slower level and keeps what it has learned."""
 
 import math
+from dataclasses import replace
 
-import equinox as eqx
+import jax.numpy as jnp
 from jaxtyping import Array
 
 from motionese.errors import SettingError
-from motionese.network.levels import Level
+from motionese.network.levels import Level, named
 from motionese.network.mtrnn import MTRNN
-from motionese.network.wiring import Scale
+from motionese.network.wiring import Scale, draw_weights
 
 
 def grow(
@@ -37,23 +38,18 @@ def grow(
     """
     if not (math.isfinite(influence) and influence >= 0):
         raise SettingError(f"the influence of a new level must be ≥ 0, got {influence}")
-    old = network.size
-    drawn = MTRNN(
-        [*network.levels, level],
-        key=key,
-        gain=gain,
-        scale=scale,
-        learned_bias=network.learned_bias,
-        initial_io=network.initial_io,
-        channels=network.channels,
+    old, sizes = network.size, (*network.sizes, level.size)
+    opened = named([*network.levels, level])[-1]
+    drawn = draw_weights(sizes, gain, scale, key, kept=len(network.sizes))
+    drawn = drawn.at[:old, old:].multiply(influence)
+    return replace(
+        network,
+        names=(*network.names, opened.name),
+        sizes=sizes,
+        weights=drawn.at[:old, :old].set(network.weights),
+        bias=jnp.pad(network.bias, (0, level.size)),
+        tau=jnp.append(network.tau, jnp.asarray(opened.taus, network.tau.dtype)),
+        variance_weights=network.variance_weights
+        if network.variance_weights is None
+        else jnp.pad(network.variance_weights, ((0, 0), (0, level.size))),
     )
-    grown: MTRNN = eqx.tree_at(
-        lambda n: (n.weights, n.bias, n.tau),
-        drawn,
-        (
-            drawn.weights.at[:old, old:].multiply(influence).at[:old, :old].set(network.weights),
-            drawn.bias.at[:old].set(network.bias),
-            drawn.tau.at[:old].set(network.tau),
-        ),
-    )
-    return grown

@@ -1,7 +1,7 @@
 """One level of an MTRNN: how many units it has and how slowly they change."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from motionese.errors import SettingError
 
@@ -13,7 +13,7 @@ DEFAULT_NAMES = ("io", "cf", "cs")
 
 @dataclass(frozen=True)
 class Level:
-    """A level of `size` units with time constant τ [steps].
+    """A level as it is drawn: `size` units with time constant τ [steps].
 
     Attributes:
         size: Number of units, at least 1.
@@ -49,14 +49,9 @@ class Level:
 
 
 def named(levels: Sequence[Level]) -> tuple[Level, ...]:
-    """Give every unnamed level the default name of its place; names must be unique."""
-    if len(levels) < 2:
-        raise SettingError(f"an MTRNN has the level io and at least one context, got {len(levels)}")
-    result = []
-    for place, level in enumerate(levels):
-        default = DEFAULT_NAMES[place] if place < len(DEFAULT_NAMES) else f"c{place + 1}"
-        result.append(Level(level.size, level.tau, level.name or default))
-    names = [level.name for level in result]
-    if len(set(names)) < len(names):
-        raise SettingError(f"level names must be unique, got {', '.join(names)}")
-    return tuple(result)
+    """Give every unnamed level the default name of its place."""
+    defaults = (*DEFAULT_NAMES, *(f"c{place + 1}" for place in range(3, len(levels))))
+    return tuple(
+        replace(level, name=level.name or default)
+        for level, default in zip(levels, defaults, strict=False)
+    )

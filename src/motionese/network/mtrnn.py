@@ -1,11 +1,11 @@
-"""The multiple-timescale recurrent network: levels, weights, time constants, channels."""
+"""The multiple-timescale recurrent network: weights, time constants, levels, channels."""
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Literal, get_args
+from dataclasses import replace
+from typing import Any, Literal, get_args
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
@@ -17,32 +17,80 @@ from motionese.network.wiring import Scale, draw_weights, wiring
 from motionese.time_constants import scaled_tau
 
 InitialIO = Literal["sensed", "zero"]
+FIRST_DEVIATION = 0.1
+"""Standard deviation, in the unit interval, that a network predicts before it is trained."""
+
+
+def shapes(sizes: tuple[int, ...], variance: bool) -> dict[str, tuple[int, ...]]:
+    """Return the shapes of a network's arrays, by the names of its fields."""
+    units, io = sum(sizes), sizes[0]
+    own: dict[str, tuple[int, ...]] = {"weights": (units, units), "bias": (units,), "tau": (units,)}
+    return own | (
+        {"variance_weights": (io, units - io), "variance_bias": (io,)} if variance else {}
+    )
+
+
+def _array(value: Any) -> Array | None:
+    return None if value is None else jnp.asarray(value)
 
 
 class MTRNN(eqx.Module):
     """An MTRNN (Yamashita & Tani 2008) of any number of levels; the first is IO.
 
+    `MTRNN.draw` draws one; `dataclasses.replace` gives the same network with other fields.
+
     Attributes:
         weights: `weights[i, j]` is w_ij, from unit j to unit i; 0 where nothing is wired. [N, N]
         bias: Added to every unit's summed input; stays 0 where it is not learned. [N]
         tau: Time constants τ_i [steps]. [N]
-        levels: Sizes, time constants and names, from IO upwards.
+        names: The levels' names, from IO upwards.
+        sizes: Units per level.
         channels: What the IO units stand for; None until the network is trained on motions.
         learned_bias: Whether the bias is learned (the paper's equation (1) has none).
         initial_io: u_IO,0 is the logit of the first sensed value (`"sensed"`), or 0 (`"zero"`,
             the paper).
+        variance_weights: Read-out R of the predicted variance from the context units, see
+            `predict`; None where none is predicted. [D, N − D]
+        variance_bias: Its r; None where none is predicted. [D]
+
+    Raises:
+        SettingError: Fewer than two levels, names that are not unique, arrays or channels that do
+            not fit the levels.
     """
 
-    weights: Float[Array, "N N"]
-    bias: Float[Array, " N"]
-    tau: Float[Array, " N"]
-    levels: tuple[Level, ...] = eqx.field(static=True)
-    channels: Channels | None = eqx.field(static=True)
-    learned_bias: bool = eqx.field(static=True)
-    initial_io: InitialIO = eqx.field(static=True)
+    weights: Float[Array, "N N"] = eqx.field(converter=jnp.asarray)
+    bias: Float[Array, " N"] = eqx.field(converter=jnp.asarray)
+    tau: Float[Array, " N"] = eqx.field(converter=jnp.asarray)
+    names: tuple[str, ...] = eqx.field(static=True)
+    sizes: tuple[int, ...] = eqx.field(static=True)
+    channels: Channels | None = eqx.field(static=True, default=None)
+    learned_bias: bool = eqx.field(static=True, default=True)
+    initial_io: InitialIO = eqx.field(static=True, default="sensed")
+    variance_weights: Float[Array, "D C"] | None = eqx.field(converter=_array, default=None)
+    variance_bias: Float[Array, " D"] | None = eqx.field(converter=_array, default=None)
 
-    def __init__(
-        self,
+    def __check_init__(self) -> None:
+        if len(self.names) < 2:
+            raise SettingError(
+                f"an MTRNN has the level io and at least one context, got {len(self.names)}"
+            )
+        if len(set(self.names)) < len(self.names):
+            raise SettingError(f"level names must be unique, got {', '.join(self.names)}")
+        if self.initial_io not in get_args(InitialIO):
+            raise SettingError(unknown("initial_io", self.initial_io, get_args(InitialIO)))
+        if self.channels is not None and len(self.channels) != self.io_size:
+            raise SettingError(
+                f"level '{self.names[0]}' needs one unit per channel "
+                f"({len(self.channels)}), got {self.io_size}"
+            )
+        for name, shape in shapes(self.sizes, self.variance).items():
+            got = np.shape(getattr(self, name))
+            if got != shape:
+                raise SettingError(f"{name} must have shape {shape}, got {got}")
+
+    @classmethod
+    def draw(
+        cls,
         levels: Sequence[Level],
         *,
         key: Array,
@@ -51,7 +99,8 @@ class MTRNN(eqx.Module):
         learned_bias: bool = True,
         initial_io: InitialIO = "sensed",
         channels: Channels | None = None,
-    ) -> None:
+        variance: bool = False,
+    ) -> "MTRNN":
         """Draw a network's initial weights.
 
         Args:
@@ -62,29 +111,51 @@ class MTRNN(eqx.Module):
             learned_bias: Whether training moves the bias.
             initial_io: What the IO units' potentials start from.
             channels: What the IO units stand for, one channel each.
+            variance: Whether the network predicts the variance of every channel as well, see
+                `predict`; its read-out begins without any influence of the context.
         """
-        self.levels = named(levels)
         if not (math.isfinite(gain) and gain >= 0):
             raise SettingError(f"the gain of the initial weights must be ≥ 0, got {gain}")
-        if initial_io not in get_args(InitialIO):
-            raise SettingError(unknown("initial_io", initial_io, get_args(InitialIO)))
-        if channels is not None and len(channels) != self.levels[0].size:
-            raise SettingError(
-                f"level '{self.levels[0].name}' needs one unit per channel "
-                f"({len(channels)}), got {self.levels[0].size}"
-            )
-        self.weights = draw_weights(self.sizes, gain, scale, key)
-        self.bias = jnp.zeros(self.size, self.weights.dtype)
-        taus = [tau for level in self.levels for tau in level.taus]
-        self.tau = jnp.asarray(taus, self.weights.dtype)
-        self.channels = channels
-        self.learned_bias = learned_bias
-        self.initial_io = initial_io
+        levels = named(levels)
+        sizes = tuple(level.size for level in levels)
+        weights = draw_weights(sizes, gain, scale, key)
+        drawn = cls(
+            weights=weights,
+            bias=jnp.zeros(sum(sizes), weights.dtype),
+            tau=jnp.asarray([tau for level in levels for tau in level.taus], weights.dtype),
+            names=tuple(level.name for level in levels),
+            sizes=sizes,
+            channels=channels,
+            learned_bias=learned_bias,
+            initial_io=initial_io,
+        )
+        if not variance:
+            return drawn
+        return replace(
+            drawn,
+            variance_weights=jnp.zeros((sizes[0], sum(sizes[1:])), weights.dtype),
+            variance_bias=jnp.full(sizes[0], 2 * math.log(FIRST_DEVIATION), weights.dtype),
+        )
 
     @property
-    def sizes(self) -> tuple[int, ...]:
-        """Units per level."""
-        return tuple(level.size for level in self.levels)
+    def arrays(self) -> dict[str, Array]:
+        """Everything that has a value for every unit or weight, by the names of the fields."""
+        return {name: getattr(self, name) for name in shapes(self.sizes, self.variance)}
+
+    @property
+    def variance(self) -> bool:
+        """Whether the network predicts the variance of its channels."""
+        return self.variance_weights is not None or self.variance_bias is not None
+
+    @property
+    def levels(self) -> tuple[Level, ...]:
+        """The levels from IO upwards, their τ as it is now: learned, or scaled in duration."""
+        ends = np.cumsum(self.sizes)[:-1]
+        taus = [part.tolist() for part in np.split(np.asarray(self.tau), ends)]
+        return tuple(
+            Level(size, own[0] if len(set(own)) == 1 else tuple(own), name)
+            for name, size, own in zip(self.names, self.sizes, taus, strict=True)
+        )
 
     @property
     def size(self) -> int:
@@ -94,42 +165,19 @@ class MTRNN(eqx.Module):
     @property
     def io_size(self) -> int:
         """Number of IO units D, one per channel."""
-        return self.levels[0].size
+        return self.sizes[0]
 
     def units(self, level: str) -> slice:
         """Return where a level's units lie among all N; `SettingError` for an unknown level."""
-        names = [known.name for known in self.levels]
-        if level not in names:
-            raise SettingError(unknown("level", level, names))
-        place = names.index(level)
+        if level not in self.names:
+            raise SettingError(unknown("level", level, self.names))
+        place = self.names.index(level)
         start = sum(self.sizes[:place])
         return slice(start, start + self.sizes[place])
 
-    def with_parameters(self, weights: Float[Array, "N N"], bias: Float[Array, " N"]) -> "MTRNN":
-        """Return the same network with other weights and bias."""
-        other: MTRNN = eqx.tree_at(lambda n: (n.weights, n.bias), self, (weights, bias))
-        return other
-
-    def carrying(self, channels: Channels) -> "MTRNN":
-        """Return the same network, its IO units standing for these channels."""
-        drawn = MTRNN(
-            self.levels,
-            key=jax.random.key(0),
-            learned_bias=self.learned_bias,
-            initial_io=self.initial_io,
-            channels=channels,
-        )
-        other: MTRNN = eqx.tree_at(
-            lambda n: (n.weights, n.bias, n.tau), drawn, (self.weights, self.bias, self.tau)
-        )
-        return other
-
     def lasting(self, scale: float) -> "MTRNN":
         """Return the same network, its motions lasting `scale` times as long (0.5 to 2)."""
-        other: MTRNN = eqx.tree_at(
-            lambda n: n.tau, self, jnp.asarray(scaled_tau(np.asarray(self.tau), scale))
-        )
-        return other
+        return replace(self, tau=jnp.asarray(scaled_tau(np.asarray(self.tau), scale)))
 
     def wired_weights(self) -> Float[Array, "N N"]:
         """Return the weights with what is not wired held at 0, in value and in gradient."""

@@ -1,7 +1,7 @@
 """Whole rollouts of a batch in one scan, with the adjoint derived by hand.
 
-With ε_i = 1/τ_i, y = sigmoid(u), and x the input vector (of an IO unit a mixture of what was
-sensed and its own prediction, of a context unit its own y), equations (1) and (2) read
+With ε_i = 1/τ_i, y = sigmoid(u) and x the input vector, row t + 1 follows from row t by a step (see
+`step`) and noise:
 
     x_t = m_t s_t + (1 − m_t) y_t  (IO),    x_t = y_t  (context)
     u_{t+1} = (1 − ε) u_t + ε (W x_t + b) + n_{t+1}.
@@ -18,16 +18,14 @@ is one contraction of the stacked δ afterwards, and one that nobody asks for is
     ∂E/∂τ = −Σ ε² δ_{t+1} (W x_t + b − u_t).
 """
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from motionese.network.mtrnn import MTRNN
-
-LANES = 16
-"""Units are padded to a multiple of this many, twice it at least: then the products of a network,
-and of the same network with further units of no influence, run through the same vector code and
-come to the same bits. (Smaller products run through other code, which sums in another order.)"""
+from motionese.network.step import advance, mixture, per_step, widened
 
 Gradients = tuple[Array, Array, Array, Array, Array, Array, Array | None]
 Saved = tuple[Array, Array, Array, Array, Array, Array, bool]
@@ -56,11 +54,12 @@ def rollout(
     Returns:
         Potentials u_0 … u_{T−1}.
     """
-    idle = max(-network.size % LANES, 2 * LANES - network.size)
+    weights, bias, tau = widened(network)
+    idle = tau.size - network.size
     potentials = _rollout(
-        jnp.pad(network.wired_weights(), (0, idle)),
-        jnp.pad(network.bias, (0, idle)),
-        jnp.pad(network.tau, (0, idle), constant_values=1.0),
+        weights,
+        bias,
+        tau,
         jnp.pad(initial, ((0, 0), (0, idle))),
         jnp.swapaxes(sensed, 0, 1),
         jnp.swapaxes(share, 0, 1),
@@ -80,15 +79,12 @@ def _rollout(
     noise: Array | None,
 ) -> Array:
     """Run equation (1), time first: initial [B, N], sensed and share [T, B, D] → u [T, B, N]."""
-    rate = 1 / tau
-    drive, gate = _padded(share * sensed, 0.0, tau.size), _padded(1 - share, 1.0, tau.size)
-    scaled = (rate[:, None] * weights).T
-    offset = rate * bias
+    drive, gate = mixture(sensed, share, tau.size)
+    constants = per_step(weights, bias, tau)
 
     def step(u: Array, inputs: tuple[Array, Array, Array | None]) -> tuple[Array, Array]:
         drive_t, gate_t, noise_t = inputs
-        x = drive_t + gate_t * jax.nn.sigmoid(u)
-        following = (1 - rate) * u + x @ scaled + offset
+        following = advance(u, drive_t, gate_t, *constants)
         if noise_t is not None:
             following = following + noise_t
         return following, following
@@ -98,24 +94,16 @@ def _rollout(
     return jnp.concatenate([initial[None], later])
 
 
-def _forward(
-    weights: Array,
-    bias: Array,
-    tau: Array,
-    initial: Array,
-    sensed: Array,
-    share: Array,
-    noise: Array | None,
-) -> tuple[Array, Saved]:
-    potentials = _rollout(weights, bias, tau, initial, sensed, share, noise)
+def _forward(*inputs: Any) -> tuple[Array, Saved]:
+    weights, bias, tau, _, sensed, share, noise = inputs
+    potentials = _rollout(*inputs)
     return potentials, (weights, bias, tau, sensed, share, potentials, noise is not None)
 
 
 def _backward(saved: Saved, outer: Array) -> Gradients:
     weights, bias, tau, sensed, share, potentials, has_noise = saved
-    rate, units = 1 / tau, tau.size
-    y = jax.nn.sigmoid(potentials)
-    gate = _padded(1 - share, 1.0, units)
+    rate, y = 1 / tau, jax.nn.sigmoid(potentials)
+    drive, gate = mixture(sensed, share, tau.size)
     slope = gate * y * (1 - y)
     scaled = rate[:, None] * weights
 
@@ -128,7 +116,7 @@ def _backward(saved: Saved, outer: Array) -> Gradients:
     deltas = jnp.concatenate([earlier, outer[-1:]])
     later = deltas[1:]
     error = rate * later
-    x = (_padded(share * sensed, 0.0, units) + gate * y)[:-1]
+    x = (drive + gate * y)[:-1]
     reached = (later @ scaled)[..., : sensed.shape[-1]]
     last = jnp.zeros_like(sensed[:1])
     slack = jnp.einsum("tbj,ij->tbi", x, weights) + bias - potentials[:-1]
@@ -141,11 +129,6 @@ def _backward(saved: Saved, outer: Array) -> Gradients:
         jnp.concatenate([(sensed - y[..., : sensed.shape[-1]])[:-1] * reached, last]),
         jnp.concatenate([jnp.zeros_like(outer[:1]), later]) if has_noise else None,
     )
-
-
-def _padded(io: Array, context: float, units: int) -> Array:
-    """Widen an array over the IO units [T, B, D] to all units, with a constant for context."""
-    return jnp.pad(io, ((0, 0), (0, 0), (0, units - io.shape[-1])), constant_values=context)
 
 
 _rollout.defvjp(_forward, _backward)

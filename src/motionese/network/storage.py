@@ -4,29 +4,26 @@ import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-import equinox as eqx
-import jax
-import jax.numpy as jnp
 import numpy as np
 import safetensors
 import safetensors.numpy
 from numpy import ndarray
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 
 from motionese.channels import Channel, Channels
 from motionese.errors import MotioneseError, StorageError
 from motionese.files import write_whole
-from motionese.network.levels import Level
-from motionese.network.mtrnn import MTRNN, InitialIO
+from motionese.network.mtrnn import MTRNN, InitialIO, shapes
 
 FORMAT, VERSION = "motionese-mtrnn", 1
 
 
 class _Level(BaseModel):
-    size: int
-    tau: float | tuple[float, ...]
+    """A level; its τ stands in the file too, for people: the array counts."""
+
+    size: Annotated[int, Field(ge=1)]
     name: str
 
 
@@ -55,16 +52,15 @@ def write_network(
         "format": FORMAT,
         "version": VERSION,
         "levels": [
-            {"name": level.name, "size": level.size, "tau": np.asarray(level.tau).tolist()}
-            for level in network.levels
+            {"name": level.name, "size": level.size, "tau": level.tau} for level in network.levels
         ],
         "channels": None if network.channels is None else [vars(c) for c in network.channels],
         "learned_bias": network.learned_bias,
         "initial_io": network.initial_io,
         "facts": dict(facts),
     }
-    own = {"weights": network.weights, "bias": network.bias, "tau": network.tau}
-    tensors = {name: np.ascontiguousarray(value) for name, value in {**own, **arrays}.items()}
+    held = {**network.arrays, **arrays}
+    tensors = {name: np.ascontiguousarray(value) for name, value in held.items()}
     write_whole(path, safetensors.numpy.save(tensors, {"motionese": json.dumps(structure)}))
 
 
@@ -81,13 +77,15 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
     structure, tensors = _contents(path)
     try:
         told = _Description(**structure)
-        units = sum(level.size for level in told.levels)
-        expected = {"weights": (units, units), "bias": (units,), "tau": (units,)}
+        sizes = tuple(level.size for level in told.levels)
+        expected = shapes(sizes, "variance_weights" in tensors)
         for name, shape in expected.items():
             _check_tensor(path, name, tensors.get(name), shape)
+        own: dict[str, Any] = {name: tensors.pop(name) for name in expected}
         network = MTRNN(
-            [Level(level.size, level.tau, level.name) for level in told.levels],
-            key=jax.random.key(0),
+            **own,
+            names=tuple(level.name for level in told.levels),
+            sizes=sizes,
             learned_bias=told.learned_bias,
             initial_io=told.initial_io,
             channels=None
@@ -100,12 +98,7 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
         raise StorageError(f"{path}: no valid network: {error}") from error
     except (TypeError, ValueError) as error:
         raise StorageError(f"{path}: its description of the network is incomplete") from error
-    own = [jnp.asarray(tensors.pop(name)) for name in ("weights", "bias", "tau")]
-    return (
-        eqx.tree_at(lambda n: (n.weights, n.bias, n.tau), network, tuple(own)),
-        tensors,
-        dict(told.facts),
-    )
+    return network, tensors, dict(told.facts)
 
 
 def _contents(path: Path) -> tuple[dict[str, Any], dict[str, ndarray]]:

@@ -44,20 +44,21 @@ def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[nd
 
 
 def draw_weights(
-    sizes: tuple[int, ...], gain: float, scale: Scale, key: Array
+    sizes: tuple[int, ...], gain: float, scale: Scale, key: Array, kept: int = 0
 ) -> Float[Array, "N N"]:
     """Draw initial weights from N(0, scale²) on the wiring.
 
     Every block has a key of its own: with the same key a network of two levels and one of three
-    have the same deviates in the blocks they share.
+    have the same deviates in the blocks they share. Blocks among the first `kept` levels are left
+    0, not drawn.
     """
-    deviates = jnp.block(
-        [
-            [
-                jax.random.normal(jax.random.fold_in(jax.random.fold_in(key, i), j), (to, of))
-                for j, of in enumerate(sizes)
-            ]
-            for i, to in enumerate(sizes)
-        ]
-    )
+
+    def block(i: int, j: int) -> Array:
+        shape = (sizes[i], sizes[j])
+        if i < kept and j < kept:
+            return jnp.zeros(shape)
+        return jax.random.normal(jax.random.fold_in(jax.random.fold_in(key, i), j), shape)
+
+    places = range(len(sizes))
+    deviates = jnp.block([[block(i, j) for j in places] for i in places])
     return deviates * jnp.asarray(weight_scales(sizes, gain, scale), dtype=deviates.dtype)

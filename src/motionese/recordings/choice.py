@@ -1,11 +1,14 @@
-"""What the user chooses about a recording, checked where it is given."""
+"""What the user chooses about a recording, checked where it is given, and its channels."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fnmatch import fnmatchcase
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import SettingError, unknown
+from motionese.errors import ChannelError, SettingError, unknown
+from motionese.recordings.recording import Recording
 
 MARGIN = 0.05
 """How far a range taken from data reaches beyond it, as a share of its width."""
@@ -69,3 +72,45 @@ def choose(**given: Any) -> Choice:
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
         raise SettingError(f"setting {name} = {first['input']!r}: {what}") from error
+
+
+def chosen(recording: Recording, choice: Choice) -> Recording:
+    """Return the recording with the chosen channels only, in the order chosen.
+
+    Raises:
+        ChannelError: A name or pattern that fits no channel, or no channel that is left.
+    """
+    everything, taken = recording.channels, recording.usual
+    if choice.channels is not None:
+        taken = matching(recording, choice.channels, everything)
+    dropped = matching(recording, choice.exclude, everything)
+    kept = tuple(c for c in taken if c not in dropped)
+    if not kept:
+        raise ChannelError(
+            f"{recording.source}: no channel is left; there are: {', '.join(everything)}"
+        )
+    columns = [everything.index(c) for c in kept]
+    units = {c: recording.units[i] for c, i in zip(kept, columns, strict=True)}
+    for pattern, unit in choice.units.items():
+        units |= dict.fromkeys(matching(recording, [pattern], kept), unit)
+    return replace(
+        recording.map(lambda e: e.part(columns=columns)),
+        channels=kept,
+        units=tuple(units.values()),
+        ranges={c: r for c, r in recording.ranges.items() if c in kept},
+        usual=kept,
+    )
+
+
+def matching(
+    recording: Recording, patterns: Iterable[str], names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Return the channels of these names, or else those that fit the patterns, one or more each."""
+    found: dict[str, None] = {}
+    for pattern in patterns:
+        # A name first: those of messages hold brackets, as in "/joints.position[0]".
+        fits = [pattern] if pattern in names else [n for n in names if fnmatchcase(n, pattern)]
+        if not fits:
+            raise ChannelError(f"{recording.source}: {unknown('channel', pattern, names)}")
+        found |= dict.fromkeys(fits)
+    return tuple(found)

@@ -65,15 +65,12 @@ def rate_of_times(times: Sequence[Float[ndarray, " _"]]) -> float | None:
 
 
 def _rising_times(recording: Recording) -> list[Float[ndarray, " _"]]:
-    times = []
-    for episode in recording.episodes:
-        if episode.times is not None:
-            back = np.flatnonzero(~(np.diff(episode.times) > 0))
-            if len(back) or not (np.abs(episode.times) < LATEST_S).all():
-                row = back[0] + 1 if len(back) else 0
-                raise RecordingError(
-                    f"{recording.source}: episode '{episode.name}', row {row}: "
-                    "time must be finite and rise"
-                )
-            times.append(episode.times)
-    return times
+    named = [(e.name, e.times) for e in recording.episodes if e.times is not None]
+    for name, times in named:
+        back = np.flatnonzero(~(np.diff(times) > 0))
+        if len(back) or not (np.abs(times) < LATEST_S).all():
+            row = back[0] + 1 if len(back) else 0
+            raise RecordingError(
+                f"{recording.source}: episode '{name}', row {row}: time must be finite and rise"
+            )
+    return [times for _, times in named]

@@ -1,9 +1,10 @@
 """What a file of recordings holds, before anything is chosen, filled in, or refused."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
@@ -25,6 +26,26 @@ class Episode:
     times: Float[ndarray, " T"] | None
     values: Float[ndarray, "T D"]
     observed: Bool[ndarray, "T D"]
+
+    @classmethod
+    def whole(
+        cls, name: str, values: Float[ndarray, "T D"], times: Float[ndarray, " T"] | None = None
+    ) -> "Episode":
+        """Return an episode of which everything was observed."""
+        return cls(name, times, values, np.ones(values.shape, dtype=bool))
+
+    def part(
+        self, rows: slice = slice(None), columns: slice | list[int] = slice(None)
+    ) -> "Episode":
+        """Return some rows of an evenly spaced episode, or some columns of any."""
+        values, observed = self.values[rows, columns], self.observed[rows, columns]
+        return replace(self, values=values, observed=observed)
+
+    def times_at(self, rate_hz: float | None) -> Float[ndarray, " T"] | None:
+        """Return the rows' times [s]; where it has none, those of a rate; None without either."""
+        if self.times is None and rate_hz is not None:
+            return np.arange(len(self.values)) / rate_hz
+        return self.times
 
 
 @dataclass(frozen=True)
@@ -49,3 +70,15 @@ class Recording:
     rate_hz: float | None
     episodes: tuple[Episode, ...]
     usual: tuple[str, ...]
+
+    def map(self, change: Callable[[Episode], Episode]) -> "Recording":
+        """Return the recording with every episode changed."""
+        return replace(self, episodes=tuple(map(change, self.episodes)))
+
+    def first(self, which: Callable[[Episode], Bool[ndarray, "T D"]]) -> tuple[str, float] | None:
+        """Return in words where the first of certain cells is, and its value."""
+        for episode in self.episodes:
+            for row, column in np.argwhere(which(episode)):
+                where = f"episode '{episode.name}', row {row}, channel '{self.channels[column]}'"
+                return where, float(episode.values[row, column])
+        return None

@@ -1,13 +1,16 @@
 """What is in a recording, in numbers, whatever is wrong with it: what a user looks at first."""
 
+from dataclasses import dataclass, replace
+from operator import attrgetter
+from pathlib import Path
+
 import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
+from motionese.recordings.preparation import still_ends
 from motionese.recordings.rate import DROPPED, rate_of_times
 from motionese.recordings.recording import Episode, Recording
-from motionese.recordings.survey_numbers import ChannelNumbers, EpisodeNumbers, Survey
-from motionese.recordings.trimming import still_ends
 
 STILL_END = 0.01
 """Share of its range within which every channel stays in the still rows at an episode's ends."""
@@ -15,50 +18,122 @@ STILL_STEP = 0.001
 """Share of its range by which a channel that is still changes at most from row to row."""
 
 
+@dataclass(frozen=True)
+class EpisodeNumbers:
+    """One episode.
+
+    Attributes:
+        name: Its name.
+        rows: How many there are.
+        duration_s: From the first row to the last [s]; None where no time or rate is told.
+        still_start: Share of its rows at the start in which nothing moves yet.
+        still_end: Share of its rows at the end in which nothing moves any more.
+        still: Share of its steps from row to row in which nothing moves.
+        unobserved: Share of its cells in which nothing was observed.
+        holes: How often its times leave out a row or more.
+        nan: Cells with a NaN.
+        infinite: Cells with an infinite value.
+    """
+
+    name: str
+    rows: int
+    duration_s: float | None
+    still_start: float
+    still_end: float
+    still: float
+    unobserved: float
+    holes: int
+    nan: int
+    infinite: int
+
+
+@dataclass(frozen=True)
+class ChannelNumbers:
+    """One channel over all episodes.
+
+    Attributes:
+        name: Its name.
+        unit: Its unit; empty where unknown.
+        usual: Whether it is taken when no channels are chosen.
+        low: Lowest finite value [its unit]; None where there is none.
+        high: Highest finite value [its unit]; None where there is none.
+        mean_step: Mean change from row to row [its unit]; None without two rows in a row.
+        still: Share of its steps from row to row in which it does not move.
+        unobserved: Share of rows in which it was not observed.
+        nan: Rows with a NaN.
+        infinite: Rows with an infinite value.
+        given: The range that the file tells, if it does.
+    """
+
+    name: str
+    unit: str
+    usual: bool
+    low: float | None
+    high: float | None
+    mean_step: float | None
+    still: float
+    unobserved: float
+    nan: int
+    infinite: int
+    given: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Survey:
+    """A whole recording.
+
+    Attributes:
+        source: The file or folder.
+        rate_hz: Rows per second that the file or its times tell; None where neither does.
+        jitter: Largest deviation of an interval from the usual one, as a share of it, holes left
+            aside; None without times.
+        episodes: One row of numbers an episode.
+        channels: One row of numbers a channel.
+    """
+
+    source: Path
+    rate_hz: float | None
+    jitter: float | None
+    episodes: tuple[EpisodeNumbers, ...]
+    channels: tuple[ChannelNumbers, ...]
+
+
 # What is absurd is shown, not refused: differences of huge values may overflow.
 @np.errstate(over="ignore", invalid="ignore")
 def survey(recording: Recording) -> Survey:
     """Return the numbers of a recording as it was read, before anything is refused or mended."""
-    seen = [e.observed & np.isfinite(e.values) for e in recording.episodes]
-    values = np.concatenate([e.values for e in recording.episodes])
-    finite = np.concatenate(seen)
-    low = np.where(finite, values, np.inf).min(axis=0, initial=np.inf)
-    high = np.where(finite, values, -np.inf).max(axis=0, initial=-np.inf)
+    episodes = recording.episodes
+    values, observed, seen, steps = (
+        np.concatenate([of(e) for e in episodes])
+        for of in (attrgetter("values"), attrgetter("observed"), _seen, _steps)
+    )
+    low = np.where(seen, values, np.inf).min(axis=0, initial=np.inf)
+    high = np.where(seen, values, -np.inf).max(axis=0, initial=-np.inf)
     widths = np.where(low <= high, high, 0.0) - np.where(low <= high, low, 0.0)
-    usual = [c in recording.usual for c in recording.channels]
-    rising = [
-        e.times
-        for e in recording.episodes
-        if e.times is not None and np.isfinite(e.times).all() and (np.diff(e.times) > 0).all()
-    ]
+    usual = [i for i, c in enumerate(recording.channels) if c in recording.usual]
+    times = [e.times for e in episodes if e.times is not None]
+    rising = [t for t in times if np.isfinite(t).all() and (np.diff(t) > 0).all()]
     rate = recording.rate_hz if recording.rate_hz is not None else rate_of_times(rising)
     return Survey(
         recording.source,
         rate,
         _jitter(rising, rate),
+        tuple(_episode(e, widths, usual, rate) for e in episodes),
         tuple(
-            _episode(e, s, widths, np.array(usual), rate)
-            for e, s in zip(recording.episodes, seen, strict=True)
-        ),
-        tuple(
-            _channel(recording, column, seen, (low[column], high[column]))
-            for column in range(len(recording.channels))
+            _channel(recording, i, values[:, i], observed[:, i], steps[:, i], (low[i], high[i]))
+            for i in range(len(recording.channels))
         ),
     )
 
 
 def _episode(
-    episode: Episode,
-    seen: Bool[ndarray, "T D"],
-    widths: Float[ndarray, " D"],
-    usual: Bool[ndarray, " D"],
-    rate: float | None,
+    episode: Episode, widths: Float[ndarray, " D"], usual: list[int], rate: float | None
 ) -> EpisodeNumbers:
-    values, rows, times = episode.values[:, usual], len(episode.values), episode.times
-    steps = _steps(values, seen[:, usual])
-    still = ~(steps > STILL_STEP * widths[usual]).any(axis=1)
-    shown = Episode(episode.name, None, values, seen[:, usual])
-    start, end = still_ends(shown, STILL_END * widths[usual]) if usual.any() else (0, 0)
+    rows, times = len(episode.values), episode.times
+    shown = episode.part(columns=usual)
+    shown = replace(shown, observed=_seen(shown))
+    still = np.all(~(_steps(shown) > STILL_STEP * widths[usual]), axis=1)
+    start, end = still_ends(shown, STILL_END * widths[usual]) if usual else (0, 0)
     duration = None
     if times is not None and rows:
         duration = float(times[-1] - times[0])
@@ -81,18 +156,12 @@ def _episode(
 def _channel(
     recording: Recording,
     column: int,
-    seen: list[Bool[ndarray, "_ D"]],
+    values: Float[ndarray, " N"],
+    observed: Bool[ndarray, " N"],
+    steps: Float[ndarray, " _"],
     extremes: tuple[float, float],
 ) -> ChannelNumbers:
     name, (low, high) = recording.channels[column], map(float, extremes)
-    values = np.concatenate([e.values[:, column] for e in recording.episodes])
-    observed = np.concatenate([e.observed[:, column] for e in recording.episodes])
-    steps = np.concatenate(
-        [
-            _steps(e.values[:, column], s[:, column])
-            for e, s in zip(recording.episodes, seen, strict=True)
-        ]
-    )
     steps = steps[~np.isnan(steps)]
     return ChannelNumbers(
         name,
@@ -109,9 +178,13 @@ def _channel(
     )
 
 
-def _steps(values: Float[ndarray, "T *D"], seen: Bool[ndarray, "T *D"]) -> Float[ndarray, "_ *D"]:
+def _seen(episode: Episode) -> Bool[ndarray, "T D"]:
+    return np.asarray(episode.observed & np.isfinite(episode.values))
+
+
+def _steps(episode: Episode) -> Float[ndarray, "_ D"]:
     """Return how far every value is from that of the row before; NaN where one is missing."""
-    return np.abs(np.diff(np.where(seen, values, np.nan), axis=0))
+    return np.asarray(np.abs(np.diff(np.where(_seen(episode), episode.values, np.nan), axis=0)))
 
 
 def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | None:

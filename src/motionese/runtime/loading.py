@@ -1,6 +1,12 @@
-"""A model read from its file without the packages that it was trained with."""
+"""A model read from its file without the packages that it was trained with.
+
+The file is in the safetensors format, read by hand: the header's length (8 bytes, little-endian),
+the header (JSON: for every tensor its type, shape and place), and the tensors' bytes, row by row,
+little-endian, without a gap.
+"""
 
 import json
+import math
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -10,9 +16,10 @@ from numpy import ndarray
 
 from motionese.errors import CHECKPOINT_BEFORE, NO_MOTION, StorageError
 from motionese.runtime.model import RuntimeModel
-from motionese.runtime.safetensors_file import parse
 
 FORMAT, VERSION = "motionese-mtrnn", 1
+FLOATS = {"F64": "<f8", "F32": "<f4", "F16": "<f2"}
+"""The format's names of the types that models are written in; tensors of others are passed over."""
 BROKEN = (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError)
 
 
@@ -72,13 +79,15 @@ def _model(path: Path, structure: dict[str, Any], tensors: dict[str, ndarray]) -
     level = np.repeat(np.arange(len(sizes)), sizes)
     wired = np.abs(level[:, None] - level[None, :]) <= 1
     initial = dict(zip(names, held["initial_states"], strict=True))
+    told = facts.get("lengths")
+    lengths = {} if told is None else dict(zip(names, map(int, told), strict=True))
     return RuntimeModel(
         weights=_fixed(held["weights"] * wired),
         bias=_fixed(held["bias"]),
         tau=_fixed(held["tau"]),
         rate_hz=_rate(path, facts.get("rate_hz")),
         initial_states=MappingProxyType(initial),
-        lengths=MappingProxyType(_lengths(names, facts.get("lengths"))),
+        lengths=MappingProxyType(lengths),
         senses_first={"sensed": True, "zero": False}[structure["initial_io"]],
         **_channels(path, structure["channels"], sizes[0]),
     )
@@ -111,12 +120,6 @@ def _rate(path: Path, rate_hz: Any) -> float | None:
     return rate
 
 
-def _lengths(names: list[str], lengths: Any) -> dict[str, int]:
-    if lengths is None:
-        return {}
-    return {name: int(rows) for name, rows in zip(names, lengths, strict=True)}
-
-
 def _channels(path: Path, channels: Any, width: int) -> dict[str, Any]:
     """Return the fields of a model that tell its channels."""
     if channels is None:
@@ -136,3 +139,33 @@ def _channels(path: Path, channels: Any, width: int) -> dict[str, Any]:
         )
     units = tuple(str(channel["unit"]) for channel in channels)
     return {"channels": names, "units": units, "low": _fixed(low), "high": _fixed(high)}
+
+
+def parse(content: bytes) -> tuple[dict[str, str], dict[str, ndarray]]:
+    """Return the metadata and the floating-point tensors of a file's content.
+
+    Raises:
+        ValueError, KeyError, TypeError, RecursionError: The content is cut short or no safetensors.
+    """
+    size = int.from_bytes(content[:8], "little")
+    if len(content) < 8 or size > len(content) - 8:
+        raise ValueError("the header is cut short")
+    header = json.loads(content[8 : 8 + size])
+    metadata = dict(header.pop("__metadata__", {}))
+    held = memoryview(content)[8 + size :]
+    tensors = {name: _tensor(entry, held) for name, entry in header.items()}
+    if max((entry["data_offsets"][1] for entry in header.values()), default=0) != len(held):
+        raise ValueError("the tensors do not fill the file")
+    return metadata, {name: value for name, value in tensors.items() if value is not None}
+
+
+def _tensor(entry: dict[str, Any], held: memoryview) -> ndarray | None:
+    begin, end = entry["data_offsets"]
+    if not 0 <= begin <= end <= len(held):
+        raise ValueError("a tensor lies outside the file")
+    if entry["dtype"] not in FLOATS:
+        return None
+    dtype, shape = np.dtype(FLOATS[entry["dtype"]]), tuple(entry["shape"])
+    if math.prod(shape) * dtype.itemsize != end - begin:
+        raise ValueError("a tensor's shape does not fit its bytes")
+    return np.frombuffer(held[begin:end], dtype).reshape(shape)

@@ -1,6 +1,6 @@
 """A trained model as the robot holds it: its arrays, channels and initial states, never changed."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -8,10 +8,28 @@ import numpy as np
 from numpy import ndarray
 
 from motionese.errors import ControlError, unknown
-from motionese.runtime.readings import Reading, row_of
-from motionese.runtime.state import State, sigmoid
 from motionese.time_constants import LONGEST, SHORTEST, scaled_tau
-from motionese.unit_interval import from_unit, to_unit
+from motionese.unit_interval import from_unit, logit, sigmoid, to_unit
+
+Reading = Mapping[str, float | None] | Sequence[float] | ndarray | None
+"""Values by channel name (a channel may be left out), one per channel, or None: no new reading."""
+
+
+@dataclass
+class State:
+    """The state of one running motion; it belongs to one step at a time.
+
+    Attributes:
+        u: Potentials of all units. [N]
+        y: Their outputs; those of the first D units are the channels' present row. [N]
+    """
+
+    u: ndarray
+    y: ndarray
+
+    def copy(self) -> "State":
+        """Return a state of its own, to try a motion out from here."""
+        return State(self.u.copy(), self.y.copy())
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,9 +86,9 @@ class RuntimeModel:
             ControlError: A name or channel that does not exist, or values that are not finite.
         """
         u = self.initial(start) if isinstance(start, str) else self._checked(start)
-        return self.placed(u, self.to_unit(row_of(here, self.channels)))
+        return self.state_at(u, self.to_unit(row_of(here, self.channels)))
 
-    def placed(self, u: ndarray, here: ndarray) -> State:
+    def state_at(self, u: ndarray, here: ndarray) -> State:
         """Return a state that begins where the robot is.
 
         Args:
@@ -79,8 +97,8 @@ class RuntimeModel:
         """
         known = np.flatnonzero(np.isfinite(here))
         if self.senses_first:
-            u[known] = np.log(here[known]) - np.log1p(-here[known])
-        y = sigmoid(u, np.empty_like(u))
+            u[known] = logit(here[known])
+        y = sigmoid(u)
         y[known] = here[known]
         return State(u, y)
 
@@ -142,3 +160,29 @@ class RuntimeModel:
             if name not in self.channels:
                 raise ControlError(f"{what}: {unknown('channel', name, self.channels)}")
         return [values.get(name, other) for name in self.channels]
+
+
+def row_of(reading: Reading, channels: Sequence[str]) -> ndarray:
+    """Return a reading [D] in the channels' units; NaN where nothing finite was read.
+
+    Raises:
+        ControlError: A channel that does not exist, a value that is no number, another width.
+    """
+    if reading is None:
+        return np.full(len(channels), np.nan)
+    if isinstance(reading, Mapping):
+        for name in reading:
+            if name not in channels:
+                raise ControlError(f"reading: {unknown('channel', name, channels)}")
+        reading = [np.nan if (v := reading.get(name)) is None else v for name in channels]
+    try:
+        row = np.array(reading, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ControlError(f"a reading must hold numbers, got {reading!r}") from error
+    if row.shape != (len(channels),):
+        raise ControlError(
+            f"a reading must hold one value per channel ({', '.join(channels)}), "
+            f"got shape {row.shape}"
+        )
+    row[~np.isfinite(row)] = np.nan
+    return row

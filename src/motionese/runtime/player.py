@@ -7,15 +7,56 @@ from numpy import ndarray
 
 from motionese.errors import ControlError
 from motionese.minimum_jerk import minimum_jerk
-from motionese.runtime.model import RuntimeModel
-from motionese.runtime.readings import Reading, row_of
-from motionese.runtime.state import State
-from motionese.runtime.step import Stepper
-from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
+from motionese.runtime.model import Reading, RuntimeModel, State, row_of
+from motionese.unit_interval import CLIP_HIGH, CLIP_LOW, sigmoid
 
 Share = float | Mapping[str, float]
 Blend = int | Callable[[ndarray], int]
 """Steps of a blend, or what tells them from the row [D] at which it begins."""
+
+
+class Stepper:
+    """Steps states of one model; one at a time, since it holds the arrays it computes in."""
+
+    def __init__(self, model: RuntimeModel) -> None:
+        rate = 1 / model.tau.astype(np.float64)
+        self._keep = (1 - rate).astype(np.float32)
+        self._scaled = np.ascontiguousarray(rate[:, None] * model.weights, dtype=np.float32)
+        self._offset = (rate * model.bias).astype(np.float32)
+        self._width = len(model.channels)
+        self._x = np.empty(model.size, np.float32)
+        self._summed = np.empty(model.size, np.float32)
+        self._correction = np.empty(self._width, np.float32)
+        self._given = np.empty(self._width, bool)
+
+    def step(self, state: State, sensed: ndarray, share: ndarray) -> ndarray:
+        """Move a state on by one step, in place.
+
+        With ε = 1/τ, x = y + share (sensed − y) for the channels and x = y for all other units:
+        u ← (1 − ε) u + ε (W x + b), y ← sigmoid(u).
+
+        Args:
+            state: The state; its y is the prediction of the row that is now sensed.
+            sensed: What is sensed now, in the unit interval; NaN where nothing is. [D]
+            share: How much of the input is sensed, the rest is predicted, 0 to 1. [D]
+
+        Returns:
+            The prediction of the next row in the unit interval, a view of the state's y. [D]
+        """
+        u, y, x, correction = state.u, state.y, self._x, self._correction
+        predicted = y[: self._width]
+        np.copyto(x, y)
+        np.subtract(sensed, predicted, out=correction)
+        np.multiply(correction, share, out=correction)
+        np.isfinite(correction, out=self._given)
+        np.add(predicted, correction, out=x[: self._width], where=self._given)
+
+        np.dot(self._scaled, x, out=self._summed)
+        np.multiply(u, self._keep, out=u)
+        np.add(u, self._summed, out=u)
+        np.add(u, self._offset, out=u)
+        sigmoid(u, y)
+        return predicted
 
 
 class Player:
@@ -78,19 +119,19 @@ class Player:
         if self._former is not None:
             self._blended += 1
             weight = minimum_jerk(self._blended / self._blend)
-            row = (1 - weight) * self._former_row(self._former, sensed) + weight * row
+            former = self._former
+            if isinstance(former, State):
+                former = self._moved(former, sensed)
+            row = (1 - weight) * former + weight * row
         if self._coming is not None:
             u, steps = self._coming
             self._blend = steps(self._model.from_unit(row)) if callable(steps) else steps
             self._former, self._coming, self._blended = self._state, None, 0
-            self._state = self._model.placed(u, np.clip(row, CLIP_LOW, CLIP_HIGH))
+            self._state = self._model.state_at(u, np.clip(row, CLIP_LOW, CLIP_HIGH))
         if self._blended + 1 >= self._blend:
             self._former = None
         self._row = row
         return self.row
-
-    def _former_row(self, former: State | ndarray, sensed: ndarray) -> ndarray:
-        return former if isinstance(former, np.ndarray) else self._moved(former, sensed)
 
     def _moved(self, state: State, sensed: ndarray) -> ndarray:
         """Move a state on; its row [D] in the unit interval, an array of its own."""

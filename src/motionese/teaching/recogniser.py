@@ -15,10 +15,11 @@ from numpy import ndarray
 
 from motionese.imitation import Learner, Scene, Watched
 from motionese.learning import Motions, activity, generate, recognise_all
-from motionese.learning.recall import RECALLED, recalled
+from motionese.learning.memory import RECALLED
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.drawing import most_rows
 from motionese.teaching.view import hand_seen
+from motionese.unit_interval import logit
 
 WINDOW = 3
 """Strokes that are looked at while the pen moves."""
@@ -120,14 +121,13 @@ class Recogniser:
         if before.begin == begin:
             return before.state
         y = activity(network, before.state, self._most_rows, first=before.first)
-        then = np.clip(y[begin - before.begin], SMALLEST, 1 - SMALLEST)
-        return np.asarray(np.log(then / (1 - then)))
+        return logit(np.clip(y[begin - before.begin], SMALLEST, 1 - SMALLEST))
 
     def _recalled(self, seen: Motions, padded: int) -> Float[ndarray, "R N"]:
         """Return the initial states of learned motions nearest to what is seen, always as many."""
         states = np.zeros((RECALLED, self.learner.network.size))
         if self.learner.experiences:
-            memory = self.learner.as_fit(self.scene.body.rate_hz)
-            nearest = recalled(memory, seen.batch(padded, 1)).starts[0]
+            memory = self.learner.as_fit(self.scene.body.rate_hz).memory
+            nearest = memory.nearest(self.learner.network, seen.batch(padded, 1)).starts[0]
             states[: len(nearest)] = nearest
         return states

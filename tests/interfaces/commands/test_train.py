@@ -132,6 +132,24 @@ def test_a_training_that_was_stopped_ends_as_one_that_was_not(arm, stopped_at):
     assert set((arm / "new.log.jsonl").read_bytes().splitlines()) < set(log.splitlines())
 
 
+def test_a_kill_before_the_model_is_saved_loses_nothing(arm, monkeypatch):
+    command = ("train", "data.npz", "--out", "new.safetensors", *SHORT)
+
+    def killed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr("motionese.interfaces.commands.train.save", killed)
+        typed(*command)
+    assert not (arm / "new.safetensors").exists()
+
+    status, _, errors = typed(*command, "--resume")
+
+    assert (status, errors) == (0, "")
+    assert (arm / "new.safetensors").exists()
+    assert not (arm / "new.checkpoint").exists()
+
+
 def test_a_training_is_gone_on_with_only_as_it_was_begun(arm, stopped_at):
     command = ("train", "data.npz", "--out", "new.safetensors", *SHORT, "--log", "jsonl")
     stopped_at(100)

@@ -17,7 +17,7 @@ from motionese.errors import ChannelError, unknown
 from motionese.interfaces.commands.initial_states import write_initial_states
 from motionese.interfaces.commands.outputs import RECORDINGS, check_output
 from motionese.interfaces.commands.summaries import number_table
-from motionese.learning import Fit, Found, Motions, load, read_for, recognise_all
+from motionese.learning import Fit, Motions, RecognitionResult, load, read_for, recognise_all
 
 
 def recognise_motions(
@@ -79,7 +79,9 @@ def _matching(channels: Channels, patterns: Sequence[str]) -> list[str]:
     return [name for name in channels.names if name in taken]
 
 
-def _recognised(console: Console, fit: Fit, motions: Motions, key: Array) -> list[Found]:
+def _recognised(
+    console: Console, fit: Fit, motions: Motions, key: Array
+) -> list[RecognitionResult]:
     """Recognise motions one by one, padded to one length so that they share compiled code."""
     keys, size = jax.random.split(key, len(motions)), (1, max(motions.lengths))
     shown = track(
@@ -92,7 +94,9 @@ def _recognised(console: Console, fit: Fit, motions: Motions, key: Array) -> lis
     return [recognise_all(fit, one, key=its, padded_to=size)[0] for one, its in shown]
 
 
-def _table(fit: Fit, motions: Motions, found: Sequence[Found], seen: Sequence[str]) -> Table:
+def _table(
+    fit: Fit, motions: Motions, found: Sequence[RecognitionResult], seen: Sequence[str]
+) -> Table:
     """Return a row per motion; errors are root mean squares, as shares of range."""
     table = number_table("motion", "looked at", "not looked at", "nearest learned", "verdict")
     table.title = "Root mean squared errors as shares of range"
@@ -112,7 +116,7 @@ def _table(fit: Fit, motions: Motions, found: Sequence[Found], seen: Sequence[st
     return table
 
 
-def _nearest(fit: Fit, found: Found) -> str:
+def _nearest(fit: Fit, found: RecognitionResult) -> str:
     """Return the learned motion whose initial states of the context are nearest."""
     if not fit.names:
         return "–"

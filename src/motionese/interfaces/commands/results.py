@@ -65,7 +65,7 @@ def summary(folder: Path, study: Study) -> Table:
             continue
         errors = [_centimetres(own[own["loop"] == 1])]
         errors += [_centimetres(_last_loop(own[own["phase"] == n])) for n in stages]
-        errors += [_centimetres(t[t["condition"] == condition.name]) for t in tables.values()]
+        errors += [_centimetres(_untrained(t, condition.name)) for t in tables.values()]
         table.add_row(
             condition.name,
             str(own["seed"].nunique()),
@@ -73,6 +73,12 @@ def summary(folder: Path, study: Study) -> Table:
             _achieved(_last_loop(own), outcome),
         )
     return table
+
+
+def _untrained(rows: "pd.DataFrame", condition: str) -> "pd.DataFrame":
+    """Return the sequences of a condition that its runs were not taught."""
+    own = rows[rows["condition"] == condition]
+    return own[~own["trained"].astype(bool)] if "trained" in own else own
 
 
 def _last_loop(rows: "pd.DataFrame") -> "pd.DataFrame":

@@ -15,7 +15,7 @@ from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
 from motionese.interfaces.commands.summaries import description, error_table, verdict
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Fit, Motions, Progress, Training, save, split, train
-from motionese.learning.course import epochs_done
+from motionese.learning.training.training_state import epochs_done
 from motionese.network import MTRNN, Level
 
 BY_LEVEL = ("bound", "noise")
@@ -60,7 +60,7 @@ def train_model(
     motions = Motions.read(source, **reading)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
     drawn, noise = jax.random.split(jax.random.key(seed))
-    network = MTRNN([Level(len(motions.channels), io_tau), *context], key=drawn)
+    network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
     done = epochs_done(checkpoint) if resume else 0
     console.print(f"{source}: {description(motions)}")
     console.print(
@@ -85,6 +85,7 @@ def train_model(
             checkpoint=checkpoint,
         )
     save(out, fit)
+    checkpoint.unlink(missing_ok=True)  # not before: what was learned is in one of the two files
     console.print(error_table(fit))
     console.print(verdict(fit))
     console.print(f"{fit.status}. The model is {out}")
@@ -131,6 +132,8 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         if name not in Training.model_fields:
             raise SettingError(unknown("setting", name, Training.model_fields))
         given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
+        if name == "learned":
+            given[name] = told.split(",")
     try:
         return Training(**given)
     except ValidationError as error:

@@ -5,8 +5,10 @@ above it. An empty cell is a value that was not observed. Separated by comma, se
 blanks; outside comma-separated files a decimal comma is understood.
 """
 
+import csv
+import io
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,21 +17,21 @@ from jaxtyping import Bool, Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError, unknown
+from motionese.recordings.formats.conventions import natural
 from motionese.recordings.formats.csv_columns import (
     EPISODE,
     TIME,
     header,
     is_measured,
+    label,
     named_column,
+    numbers,
     split_unit,
+    times,
 )
 from motionese.recordings.formats.csv_table import Table, read_table
-from motionese.recordings.formats.csv_values import numbers, times
-from motionese.recordings.formats.csv_writing import write
-from motionese.recordings.natural_order import natural
+from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
-
-__all__ = ["read", "write"]
 
 SUFFIXES = (".csv", ".tsv")
 """Of the files in a folder that are read; others may be notes."""
@@ -56,6 +58,33 @@ def read(path: Path, episode: str | None = None, time: str | None = None) -> Rec
     parts = [_file(file, episode, time, alone=False) for file in files]
     episodes = tuple(e for p in parts for e in _as_first(p, parts[0]))
     return replace(parts[0], source=path, episodes=episodes)
+
+
+def write(path: Path, recording: Recording) -> None:
+    """Write one table: episode, time [s], and the channels; empty where nothing was observed.
+
+    Raises:
+        RecordingError: A channel is called as the columns of episode or time are, or `path`
+            cannot be written.
+    """
+    taken = {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}
+    if taken:
+        raise RecordingError(f"{path}: a csv file has its own column '{taken.pop()}'; rename it")
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    times = [e.times_at(recording.rate_hz) for e in recording.episodes]
+    timed = all(t is not None for t in times)
+    labels = [label(c, u) for c, u in zip(recording.channels, recording.units, strict=True)]
+    table.writerow([EPISODE[0], *([f"{TIME[0]} [s]"] if timed else []), *labels])
+    for episode, stamps in zip(recording.episodes, times, strict=True):
+        columns: list[Iterable[str]] = [[episode.name] * len(episode.values)]
+        if timed and stamps is not None:
+            columns.append(map(repr, stamps.tolist()))
+        for values, seen in zip(episode.values.T, episode.observed.T, strict=True):
+            cells = zip(values.tolist(), seen.tolist(), strict=True)
+            columns.append(repr(v) if s else "" for v, s in cells)
+        table.writerows(zip(*columns, strict=True))
+    write_file(path, text.getvalue().encode())
 
 
 def _file(path: Path, episode: str | None, time: str | None, *, alone: bool) -> Recording:
@@ -147,20 +176,15 @@ def _as_first(part: Recording, first: Recording) -> Sequence[Episode]:
     """Return a file's episodes with their columns in the order of the folder's first file."""
     if part.channels == first.channels and part.units == first.units:
         return part.episodes
-    for name in (*first.channels, *part.channels):
-        if name not in part.channels:
-            raise RecordingError(f"{part.source}: {unknown('channel', name, part.channels)}")
-        if name not in first.channels:
-            raise RecordingError(f"{first.source}: {unknown('channel', name, first.channels)}")
+    for mine, other in ((part, first), (first, part)):
+        for name in other.channels:
+            if name not in mine.channels:
+                raise RecordingError(f"{mine.source}: {unknown('channel', name, mine.channels)}")
     order = [part.channels.index(c) for c in first.channels]
-    for name, was, here in zip(
-        first.channels, first.units, [part.units[i] for i in order], strict=True
-    ):
-        if was != here:
+    for i, name, was in zip(order, first.channels, first.units, strict=True):
+        if was != (here := part.units[i]):
             raise RecordingError(
                 f"{part.source}: channel '{name}' is in [{here}], "
                 f"in {first.source.name} it is in [{was}]"
             )
-    return [
-        replace(e, values=e.values[:, order], observed=e.observed[:, order]) for e in part.episodes
-    ]
+    return part.map(lambda e: e.part(columns=order)).episodes

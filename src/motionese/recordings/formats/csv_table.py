@@ -1,4 +1,4 @@
-"""A text file as columns of cells; which line is at fault."""
+"""A text file as columns of cells: which line is at fault, and what in a cell is a number."""
 
 import csv
 import io
@@ -6,12 +6,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+
 from motionese.errors import RecordingError
-from motionese.recordings.formats.csv_cells import is_number
 
 SEPARATORS = ",;\t"
 COMMENTS = ("#", "%", "sep=")
 """What lines above a table begin with that are no rows of it, or that name its columns."""
+MISSING = ("na", "n/a", "null", "none")
+"""Words for a value that was not observed, as an empty cell is. NaN is a value."""
+TRUTH = {"true": "1", "false": "0"}
 
 
 @dataclass(frozen=True)
@@ -66,6 +72,28 @@ def read_table(path: Path) -> Table:
         _fitted(path, cells, line, len(rows[0])) for cells, line in zip(rows, ends, strict=True)
     )
     return Table(path, separator, tuple(header), tuple(zip(*below, strict=True)), tuple(ends[1:]))
+
+
+def floats(cells: Sequence[str]) -> Float[ndarray, " T"]:
+    """Return cells as numbers, NaN where one is empty; `ValueError` where one is text."""
+    return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
+
+
+def is_number(cell: str) -> bool:
+    """Tell whether a cell holds a number."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def plain(cell: str, *, decimal_comma: bool) -> str:
+    """Return a cell as Python writes its number; empty where nothing was observed."""
+    folded = cell.casefold()
+    if folded in MISSING:
+        return ""
+    return TRUTH.get(folded, cell.replace(",", ".") if decimal_comma else cell)
 
 
 def _text(path: Path) -> str:

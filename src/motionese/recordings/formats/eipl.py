@@ -13,9 +13,8 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.even_rows import check_even_and_whole
-from motionese.recordings.formats.numpy_files import UNREADABLE, why
-from motionese.recordings.formats.written import new_folder
+from motionese.recordings.formats.conventions import UNREADABLE, why
+from motionese.recordings.formats.writing import check_even_and_whole, new_folder
 from motionese.recordings.recording import Episode, Recording
 
 JOINTS, BOUNDS = "joints.npy", "joint_bounds.npy"
@@ -30,21 +29,17 @@ def read(path: Path) -> Recording:
     parts = [p for p in (path, path / "train", path / "test") if (p / JOINTS).is_file()]
     if not parts:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
-    channels: tuple[str, ...] | None = None
-    episodes: list[Episode] = []
-    for part in parts:
-        names, rows = _part(part)
-        if channels is not None and names != channels:
+    contents = [(part, *_part(part)) for part in parts]
+    channels, episodes = contents[0][1], []
+    for part, names, rows in contents:
+        if names != channels:
             raise RecordingError(
                 f"{part}: its channels are {', '.join(names)}; "
                 f"in {parts[0].name} they are {', '.join(channels)}"
             )
-        channels = names
         prefix = "" if part == path else f"{part.name}/"
         for i, values in enumerate(rows):
-            kept = np.array(values[: _length(values)])
-            episodes.append(Episode(f"{prefix}{i}", None, kept, np.ones(kept.shape, dtype=bool)))
-    assert channels is not None
+            episodes.append(Episode.whole(f"{prefix}{i}", np.array(values[: _length(values)])))
     ranges = _ranges(path, [c for c in channels if c.startswith("joint_")])
     return Recording(path, channels, ("",) * len(channels), ranges, None, tuple(episodes), channels)
 
@@ -58,19 +53,13 @@ def write(path: Path, recording: Recording) -> None:
         RecordingError: Gaps or uneven times, which EIPL cannot hold, or `path` exists already.
     """
     check_even_and_whole(path, recording, "an EIPL folder")
-    longest = max(len(e.values) for e in recording.episodes)
-    joints = np.stack(
-        [
-            np.pad(e.values, ((0, longest - len(e.values)), (0, 0)), mode="edge")
-            for e in recording.episodes
-        ]
-    ).astype(np.float32)
-    given = [recording.ranges.get(c) for c in recording.channels]
-    low = joints.min(axis=(0, 1))
-    high = joints.max(axis=(0, 1))
-    bounds = np.array(
-        [r or (lo, hi) for r, lo, hi in zip(given, low, high, strict=True)], dtype=np.float32
-    ).T
+    values = [e.values for e in recording.episodes]
+    longest = max(map(len, values))
+    padded = [np.pad(e, ((0, longest - len(e)), (0, 0)), mode="edge") for e in values]
+    joints = np.stack(padded).astype(np.float32)
+    extremes = zip(joints.min(axis=(0, 1)), joints.max(axis=(0, 1)), strict=True)
+    ranges = [recording.ranges.get(c, e) for c, e in zip(recording.channels, extremes, strict=True)]
+    bounds = np.array(ranges, dtype=np.float32).T
     with new_folder(path) as folder:
         np.save(folder / JOINTS, joints)
         np.save(folder / BOUNDS, bounds)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +10,8 @@ import numpy as np
 from jaxtyping import Float, Int
 from numpy import ndarray
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.even_rows import times_unless_even
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import imported, times_unless_even, why
 from motionese.recordings.formats.lerobot_features import (
     ACTION,
     STATE,
@@ -87,21 +88,16 @@ def _read_rows(path: Path, features: tuple[Feature, ...]) -> _Rows:
 
 def _table(file: Path, columns: list[str]) -> Any:
     """Return these columns of a parquet file and no others, which may be pictures."""
+    pyarrow = imported("pyarrow", "lerobot", "reading a LeRobotDataset")
     try:
-        import pyarrow  # noqa: PLC0415
-        from pyarrow.parquet import ParquetFile  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("pyarrow", "lerobot", "reading a LeRobotDataset") from error
-    try:
-        with ParquetFile(file) as parquet:
+        with import_module("pyarrow.parquet").ParquetFile(file) as parquet:
             missing = [key for key in columns if key not in parquet.schema_arrow.names]
             if missing:
                 raise RecordingError(f"{file}: has no column '{missing[0]}'")
             return parquet.read(columns=columns)
     except (pyarrow.ArrowException, OSError, ValueError, MemoryError) as error:
-        why = " ".join(str(error).split())
         raise RecordingError(
-            f"{file}: not a parquet file, cut short, or damaged ({why})"
+            f"{file}: not a parquet file, cut short, or damaged ({why(error)})"
         ) from error
 
 
@@ -139,11 +135,10 @@ def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarra
 
 def _check_totals(path: Path, info: Info, rows: _Rows) -> None:
     found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
-    told = {"total_frames": info.total_frames, "total_episodes": info.total_episodes}
     for key, count in found.items():
-        if told[key] not in {None, count}:
+        if (told := getattr(info, key)) not in {None, count}:
             raise RecordingError(
-                f"{path}: meta/info.json tells {told[key]} {key}, the files in data hold {count}; "
+                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
                 f"is the download complete?"
             )
 
@@ -160,9 +155,5 @@ def _episodes(path: Path, info: Info, rows: _Rows) -> Iterator[Episode]:
                 f"found frame_index {rows.frame[start + wrong[0]]} in its place"
             )
         values = rows.values[start:end]
-        yield Episode(
-            name=names.get(index, f"episode_{index:06d}"),
-            times=times_unless_even(rows.times[start:end], info.fps),
-            values=values,
-            observed=np.ones(values.shape, dtype=bool),
-        )
+        times = times_unless_even(rows.times[start:end], info.fps)
+        yield Episode.whole(names.get(index, f"episode_{index:06d}"), values, times)

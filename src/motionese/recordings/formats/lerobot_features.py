@@ -9,8 +9,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.fault import fault
-from motionese.recordings.formats.widest import WIDEST
+from motionese.recordings.formats.conventions import WIDEST, fault, numbered, strings
 
 STATE, ACTION = "observation.state", "action"
 VERSIONS = ("v3.0", "v2.1")
@@ -105,15 +104,13 @@ def features_of(info: Info) -> tuple[Feature, ...]:
         if taken & set(channels):
             channels = tuple(f"{key}.{name}" for name in channels)
         taken |= set(channels)
-        units = _strings(told.units) or ()
-        features.append(Feature(key, channels, units if len(units) == width else ("",) * width))
+        features.append(Feature(key, channels, strings(told.units, width) or ("",) * width))
     return tuple(features)
 
 
 def _channels(key: str, names: tuple[str, ...] | None, width: int) -> tuple[str, ...]:
     if names is None:
-        label = key.rpartition(".")[2] if key == STATE else key
-        return (label,) if width == 1 else tuple(f"{label}_{i}" for i in range(width))
+        return numbered(key.rpartition(".")[2] if key == STATE else key, width)
     count = Counter(names)
     unique = [n if count[n] == 1 else f"{n}_{i}" for i, n in enumerate(names)]
     return tuple(unique if key == STATE else [f"{key}.{n}" for n in unique])
@@ -127,15 +124,8 @@ def _names(told: Any, width: int) -> tuple[str, ...] | None:
         told = _joined(told.values())
     elif isinstance(told, list) and all(isinstance(part, list) for part in told):
         told = _joined(told)
-    names = _strings(told)
-    return names if names is not None and len(names) == width else None
+    return strings(told, width)
 
 
 def _joined(parts: Iterable[Any]) -> list[Any]:
     return [name for part in parts if isinstance(part, list) for name in part]
-
-
-def _strings(told: Any) -> tuple[str, ...] | None:
-    if isinstance(told, list) and all(isinstance(t, str) for t in told):
-        return tuple(told)
-    return None

@@ -1,17 +1,17 @@
 """Writing a LeRobotDataset v3.0 with pyarrow alone, such that lerobot loads it."""
 
 import json
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy import ndarray
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.even_rows import check_even_and_whole
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import imported
 from motionese.recordings.formats.lerobot_features import ACTION, BOOKKEEPING, STATE
-from motionese.recordings.formats.next_row import next_rows
-from motionese.recordings.formats.written import new_folder
+from motionese.recordings.formats.writing import check_even_and_whole, new_folder, next_rows
 from motionese.recordings.recording import Recording
 
 _DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
@@ -112,12 +112,9 @@ def _statistics(values: ndarray) -> dict[str, list[Any]]:
 def _write_parquets(
     folder: Path, whole: dict[str, ndarray], episodes: list[dict[str, ndarray]]
 ) -> None:
-    try:
-        import pandas as pd  # noqa: PLC0415
-        import pyarrow as pa  # noqa: PLC0415
-        from pyarrow.parquet import write_table  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("pyarrow", "lerobot", "writing a LeRobotDataset") from error
+    pa = imported("pyarrow", "lerobot", "writing a LeRobotDataset")
+    pd = imported("pandas", "lerobot", "writing a LeRobotDataset")
+    parquet = import_module("pyarrow.parquet")
     data = {key: pa.array(v) for key, v in whole.items() if v.ndim == 1}
     for key in (STATE, ACTION):
         cells = pa.array(whole[key].reshape(-1))
@@ -134,7 +131,7 @@ def _write_parquets(
     }
     for name, table in tables.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        write_table(table, folder / name)
+        parquet.write_table(table, folder / name)
 
 
 def _about(columns: dict[str, ndarray]) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """MCAP with JSON messages: one file an episode, a folder of files a recording.
 
-Channels are named TOPIC.a.b by where the number stands in the message (see `mcap_numbers`).
+Channels are named TOPIC.a.b by where the number stands in the message (see `numbers`).
 Messages in other encodings are left alone. A topic that we wrote carries in its MCAP channel's
 metadata what JSON cannot say (names, units, rate, the episode's name); its channels keep their
 plain names.
@@ -10,6 +10,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +18,16 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.bookkeeping import is_bookkeeping
-from motionese.recordings.formats.even_rows import times_unless_even
-from motionese.recordings.formats.mcap_numbers import numbers
-from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
-from motionese.recordings.formats.mcap_writing import write
-from motionese.recordings.natural_order import natural
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import (
+    WIDEST,
+    imported,
+    is_bookkeeping,
+    natural,
+    strings,
+    times_unless_even,
+)
+from motionese.recordings.formats.mcap_writing import METADATA_KEY, TopicMetadata, write
 from motionese.recordings.rate import rate_of_times
 from motionese.recordings.recording import Episode, Recording
 
@@ -35,7 +39,7 @@ class _Tape:
     """What one file holds: numbers by channel and log time [ns]."""
 
     file: Path
-    told: Told | None = None
+    metadata: TopicMetadata | None = None
     samples: dict[str, dict[int, float]] = field(default_factory=dict)
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
@@ -58,9 +62,10 @@ def read(path: Path) -> Recording:
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
     tapes = [_read_tape(file) for file in files]
-    named = [name for t in tapes for name in (*(t.told.channels if t.told else ()), *t.samples)]
+    named = [n for t in tapes for n in (*(t.metadata.channels if t.metadata else ()), *t.samples)]
     channels = tuple(dict.fromkeys(named))
-    units = {name: unit for t in tapes if t.told for name, unit in t.told.named_units()}
+    told = [t.metadata for t in tapes if t.metadata]
+    units = {name: unit for m in told for name, unit in zip(m.channels, m.units, strict=False)}
     bookkeeping = set.union(*(t.bookkeeping for t in tapes))
     return Recording(
         source=path,
@@ -73,6 +78,29 @@ def read(path: Path) -> Recording:
     )
 
 
+def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
+    """Yield (path, number) for every number in `value`: `.a.b` in objects, `.a[0]` in arrays.
+
+    An object with a list of strings `name`, such as a JointState, names the columns of its other
+    lists of that length: `.position.elbow`. Truth values, text and null are no numbers.
+    """
+    if isinstance(value, dict):
+        labels = strings(value.get("name")) or ()
+        labels = labels if len(set(labels)) == len(labels) else ()
+        for key, part in value.items():
+            if labels and isinstance(part, list) and len(part) == len(labels):
+                for label, item in zip(labels, part, strict=True):
+                    yield from numbers(item, f"{path}.{key}.{label}")
+            else:
+                yield from numbers(part, f"{path}.{key}")
+    elif isinstance(value, list):
+        if len(value) <= WIDEST:
+            for i, item in enumerate(value):
+                yield from numbers(item, f"{path}[{i}]")
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield path, float(value)
+
+
 def _read_tape(file: Path) -> _Tape:
     tape = _Tape(file)
     topics: dict[int, Any] = {}
@@ -81,7 +109,7 @@ def _read_tape(file: Path) -> _Tape:
             topics[record.id] = record
             tape.encodings.add(record.message_encoding)
             if METADATA_KEY in record.metadata:
-                tape.told = Told.read(file, record.metadata[METADATA_KEY])
+                tape.metadata = TopicMetadata.read(file, record.metadata[METADATA_KEY])
         elif hasattr(record, "channel_id"):
             topic = topics.get(record.channel_id)
             if topic is None or topic.message_encoding != "json":
@@ -104,20 +132,16 @@ def _read_tape(file: Path) -> _Tape:
 
 def _records(file: Path) -> Iterator[Any]:
     """Yield channels and messages in the file's order."""
-    try:
-        from mcap.records import Channel, Message  # noqa: PLC0415
-        from mcap.stream_reader import StreamReader  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("mcap", "mcap", "reading MCAP") from error
-    count = 0
+    stream_reader = imported("mcap.stream_reader", "mcap", "reading MCAP")
+    records, count = import_module("mcap.records"), 0
     try:
         with file.open("rb") as stream:
             size = file.stat().st_size
             # No record is longer than its file: a damaged length must not fill the memory.
-            reader = StreamReader(stream, validate_crcs=True, record_size_limit=size)
+            reader = stream_reader.StreamReader(stream, validate_crcs=True, record_size_limit=size)
             for record in reader.records:
-                if isinstance(record, Channel | Message):
-                    count += isinstance(record, Message)
+                if isinstance(record, records.Channel | records.Message):
+                    count += isinstance(record, records.Message)
                     yield record
     except Exception as error:
         # What the parser and its decompressors raise depends on which byte is damaged.
@@ -142,7 +166,7 @@ def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) ->
 
 def _rate(tapes: list[_Tape]) -> float | None:
     """Return the rate [Hz] that all files tell, or that of the topic with the most messages."""
-    told = {t.told.rate_hz if t.told else None for t in tapes}
+    told = {t.metadata.rate_hz if t.metadata else None for t in tapes}
     if len(told) == 1 and None not in told:
         return told.pop()
     count = Counter[str]()
@@ -167,9 +191,9 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
         rows = [row_at[stamp] for stamp in samples]
         values[rows, column] = list(samples.values())
         observed[rows, column] = True
-    rate_told = tape.told.rate_hz if tape.told else None
+    rate_told = tape.metadata.rate_hz if tape.metadata else None
     return Episode(
-        name=tape.told.episode if tape.told else tape.file.stem,
+        name=tape.metadata.episode if tape.metadata else tape.file.stem,
         times=times_unless_even(_since_first(stamps), rate_told),
         values=values,
         observed=observed,

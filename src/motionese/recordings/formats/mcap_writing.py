@@ -4,17 +4,46 @@ import json
 import re
 from io import BytesIO
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
 from jaxtyping import Int
 from numpy import ndarray
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import RecordingError, needs
-from motionese.recordings.formats.mcap_told import METADATA_KEY, Told
-from motionese.recordings.formats.written import new_folder, write_file
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import fault, imported
+from motionese.recordings.formats.writing import new_folder, write_file
 from motionese.recordings.recording import Episode, Recording
 
 TOPIC = "/motion"
+METADATA_KEY = "motionese"
+
+
+class TopicMetadata(BaseModel):
+    """What a topic that we wrote tells beside its JSON messages, in its MCAP channel's metadata.
+
+    The episode's name, its channels with their units, and its rate [Hz] where there is one.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    version: Literal[1] = 1
+    episode: str
+    channels: tuple[str, ...]
+    units: tuple[str, ...]
+    rate_hz: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None
+
+    @classmethod
+    def read(cls, file: Path, text: str) -> "TopicMetadata":
+        """Read the metadata's text; `RecordingError` where it is of no version that is read."""
+        try:
+            return cls.model_validate_json(text)
+        except ValidationError as error:
+            raise RecordingError(
+                f"{file}: its metadata '{METADATA_KEY}' is not what this version writes: "
+                f"{fault(error)}"
+            ) from error
 
 
 def write(path: Path, recording: Recording) -> None:
@@ -28,6 +57,8 @@ def write(path: Path, recording: Recording) -> None:
             JSON cannot hold, or a folder that exists.
         MissingPackageError: mcap is not installed.
     """
+    if wrong := recording.first(lambda e: e.observed & ~np.isfinite(e.values)):
+        raise RecordingError(f"{path}: {wrong[0]}: JSON cannot hold {wrong[1]}")
     if path.suffix.lower() != ".mcap":
         contents = [_content(path, episode, recording) for episode in recording.episodes]
         with new_folder(path) as folder:
@@ -45,25 +76,17 @@ def write(path: Path, recording: Recording) -> None:
 
 
 def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
-    try:
-        from mcap.writer import Writer  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("mcap", "mcap", "writing MCAP") from error
-    _check_finite(path, episode, recording.channels)
-    stamps = _stamps(path, episode, recording.rate_hz)
+    mcap = imported("mcap.writer", "mcap", "writing MCAP")
+    channels, units, rate = recording.channels, recording.units, recording.rate_hz
+    stamps = _stamps(path, episode, rate)
     properties = {
         name: {"type": "number", **({"description": f"[{unit}]"} if unit else {})}
-        for name, unit in zip(recording.channels, recording.units, strict=True)
+        for name, unit in zip(channels, units, strict=True)
     }
     schema = json.dumps({"type": "object", "properties": properties})
-    told = Told(
-        episode=episode.name,
-        channels=recording.channels,
-        units=recording.units,
-        rate_hz=recording.rate_hz,
-    )
+    told = TopicMetadata(episode=episode.name, channels=channels, units=units, rate_hz=rate)
     content = BytesIO()
-    writer = Writer(content)
+    writer = mcap.Writer(content)
     writer.start(profile="", library="motionese")
     topic = writer.register_channel(
         topic=TOPIC,
@@ -72,21 +95,11 @@ def _content(path: Path, episode: Episode, recording: Recording) -> bytes:
         metadata={METADATA_KEY: told.model_dump_json()},
     )
     for row, stamp in enumerate(stamps.tolist()):
-        cells = zip(recording.channels, episode.values[row], episode.observed[row], strict=True)
+        cells = zip(channels, episode.values[row], episode.observed[row], strict=True)
         message = {name: float(value) for name, value, seen in cells if seen}
         writer.add_message(topic, stamp, json.dumps(message).encode(), stamp, row)
     writer.finish()
     return content.getvalue()
-
-
-def _check_finite(path: Path, episode: Episode, channels: tuple[str, ...]) -> None:
-    wrong = np.argwhere(episode.observed & ~np.isfinite(episode.values))
-    if len(wrong):
-        row, column = wrong[0]
-        raise RecordingError(
-            f"{path}: episode '{episode.name}', row {row}, channel '{channels[column]}': "
-            f"JSON cannot hold {episode.values[row, column]}"
-        )
 
 
 def _stamps(path: Path, episode: Episode, rate_hz: float | None) -> Int[ndarray, " T"]:
@@ -94,13 +107,10 @@ def _stamps(path: Path, episode: Episode, rate_hz: float | None) -> Int[ndarray,
     where = f"{path}: episode '{episode.name}'"
     if not len(episode.values):
         raise RecordingError(f"{where} has no rows; an MCAP file needs at least one")
-    if episode.times is not None:
-        times = episode.times - episode.times[0]
-    elif rate_hz is not None:
-        times = np.arange(len(episode.values)) / rate_hz
-    else:
+    times = episode.times_at(rate_hz)
+    if times is None:
         raise RecordingError(f"{where} has no times, and the recording no known rate")
-    stamps: Int[ndarray, " T"] = np.rint(times * 1e9).astype(np.int64)
+    stamps: Int[ndarray, " T"] = np.rint((times - times[0]) * 1e9).astype(np.int64)
     if np.any(np.diff(stamps) <= 0):
         raise RecordingError(f"{where}: its times do not rise from row to row")
     return stamps

@@ -3,6 +3,7 @@
 import io
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,13 +11,14 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.fault import fault
-from motionese.recordings.formats.numpy_files import UNREADABLE, why
-from motionese.recordings.formats.written import write_file
+from motionese.recordings.formats.conventions import UNREADABLE, fault, why
+from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
 
 FORMAT, VERSION = "motionese-motions", 1
 METADATA = "metadata"
+SHARED = ("channels", "units", "ranges", "rate_hz", "usual")
+"""What the metadata tell just as a recording does."""
 
 
 class Metadata(BaseModel):
@@ -26,7 +28,7 @@ class Metadata(BaseModel):
 
     channels: tuple[str, ...]
     units: tuple[str, ...]
-    ranges: dict[str, tuple[float, float]]
+    ranges: Mapping[str, tuple[float, float]]
     rate_hz: float | None
     usual: tuple[str, ...]
     episodes: tuple[str, ...]
@@ -65,27 +67,13 @@ def read(path: Path) -> Recording:
         raise RecordingError(
             f"{path}: not a whole file of motions that motionese wrote: {why(error)}"
         ) from error
-    return Recording(
-        path,
-        metadata.channels,
-        metadata.units,
-        metadata.ranges,
-        metadata.rate_hz,
-        episodes,
-        metadata.usual,
-    )
+    return Recording(source=path, episodes=episodes, **metadata.model_dump(include={*SHARED}))
 
 
 def write(path: Path, recording: Recording) -> None:
     """Write a recording with all that it holds."""
-    metadata = Metadata(
-        channels=recording.channels,
-        units=recording.units,
-        ranges=dict(recording.ranges),
-        rate_hz=recording.rate_hz,
-        usual=recording.usual,
-        episodes=tuple(e.name for e in recording.episodes),
-    )
+    told = {name: getattr(recording, name) for name in SHARED}
+    metadata = Metadata(**told, episodes=tuple(e.name for e in recording.episodes))
     arrays: dict[str, Any] = {METADATA: np.array(metadata.model_dump_json())}
     for i, episode in enumerate(recording.episodes):
         arrays |= {f"values_{i}": episode.values, f"observed_{i}": episode.observed}

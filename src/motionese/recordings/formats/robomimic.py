@@ -8,20 +8,24 @@ names no columns: a dataset that we wrote says in its attributes `names` and `un
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from motionese.errors import RecordingError, needs
+from motionese.errors import RecordingError
+from motionese.recordings.formats.conventions import WIDEST, imported, natural, strings, why
 from motionese.recordings.formats.robomimic_damage import check_walkable
-from motionese.recordings.formats.robomimic_writing import DERIVED, write
-from motionese.recordings.formats.widest import WIDEST
-from motionese.recordings.natural_order import natural
+from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.rate import FASTEST_HZ
 from motionese.recordings.recording import Episode, Recording
 
-__all__ = ["read", "write"]
+DERIVED = "derived_from"
+"""Attribute of a dataset that is computed from another one, so that reading leaves it out."""
+
+_NO_ENVIRONMENT = {"env_name": "recording", "type": 2}
+"""robomimic asks for a kind of environment (2: gym) even where none is ever made."""
 
 
 @dataclass(frozen=True)
@@ -43,18 +47,39 @@ def read(path: Path) -> Recording:
         RecordingError: Not such a file, cut short, or datasets that do not fit together.
         MissingPackageError: h5py is not installed.
     """
-    try:
-        import h5py  # noqa: PLC0415
-    except ImportError as error:
-        raise needs("h5py", "hdf5", "reading robomimic's HDF5") from error
+    h5py = imported("h5py", "hdf5", "reading robomimic's HDF5")
     check_walkable(path)
     try:
         with h5py.File(path, "r") as file:
             return _recording(path, file)
     except (OSError, RuntimeError, LookupError, TypeError, ValueError, MemoryError) as error:
         # What h5py raises depends on which byte is damaged.
-        why = " ".join(str(error).split())
-        raise RecordingError(f"{path}: not an HDF5 file, cut short, or damaged ({why})") from error
+        raise RecordingError(
+            f"{path}: not an HDF5 file, cut short, or damaged ({why(error)})"
+        ) from error
+
+
+def write(path: Path, recording: Recording) -> None:
+    """Write the recording as demonstrations with one observation key, `state` [T, D].
+
+    `actions` are the next row's state (the last row its own), which is what a learner imitates;
+    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up.
+
+    Raises:
+        RecordingError: Gaps or uneven times, which robomimic cannot hold.
+        MissingPackageError: h5py is not installed.
+    """
+    h5py = imported("h5py", "hdf5", "writing robomimic's HDF5")
+    check_even_and_whole(path, recording, "robomimic's HDF5")
+    content = BytesIO()
+    with h5py.File(content, "w") as file:
+        data = file.create_group("data")
+        data.attrs["total"] = sum(len(e.values) for e in recording.episodes)
+        rate = {} if recording.rate_hz is None else {"control_freq": recording.rate_hz}
+        data.attrs["env_args"] = json.dumps({**_NO_ENVIRONMENT, "env_kwargs": rate})
+        for i, episode in enumerate(recording.episodes):
+            _write_demo(data.create_group(f"demo_{i}"), episode, recording)
+    write_file(path, content.getvalue())
 
 
 def _recording(path: Path, file: Any) -> Recording:
@@ -92,14 +117,11 @@ def _columns(demo: Any) -> Iterator[_Columns]:
         dataset = demo[name]
         if not _is_table(dataset) or DERIVED in dataset.attrs:
             continue
-        label = name.removeprefix("obs/")
         width = 1 if dataset.ndim == 1 else dataset.shape[1]
+        named, units = (strings(_json(dataset.attrs.get(a)), width) for a in ("names", "units"))
+        label = name.removeprefix("obs/")
         plain = (label,) if dataset.ndim == 1 else tuple(f"{label}_{i}" for i in range(width))
-        yield _Columns(
-            name,
-            _told(dataset, "names", width) or plain,
-            _told(dataset, "units", width) or ("",) * width,
-        )
+        yield _Columns(name, named or plain, units or ("",) * width)
 
 
 def _is_group(item: Any) -> bool:
@@ -110,13 +132,6 @@ def _is_table(item: Any) -> bool:
     if not hasattr(item, "dtype") or item.dtype.kind != "f":
         return False
     return bool(item.ndim == 1 or (item.ndim == 2 and 0 < item.shape[1] <= WIDEST))
-
-
-def _told(dataset: Any, attribute: str, width: int) -> tuple[str, ...] | None:
-    told = _json(dataset.attrs.get(attribute))
-    if isinstance(told, list) and len(told) == width and all(isinstance(t, str) for t in told):
-        return tuple(told)
-    return None
 
 
 def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
@@ -143,12 +158,7 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     tables = [np.asarray(demo[c.dataset][()]).reshape(-1, len(c.names)) for c in columns]
     values = np.concatenate(tables, axis=1, dtype=np.float64)
     name = demo.attrs.get("name")
-    return Episode(
-        name=name if isinstance(name, str) else own_name,
-        times=None,
-        values=values,
-        observed=np.ones(values.shape, dtype=bool),
-    )
+    return Episode.whole(name if isinstance(name, str) else own_name, values)
 
 
 def _usual(columns: tuple[_Columns, ...]) -> tuple[str, ...]:
@@ -172,3 +182,19 @@ def _json(text: Any) -> Any:
         return json.loads(text)
     except (TypeError, ValueError, RecursionError):
         return None
+
+
+def _write_demo(demo: Any, episode: Episode, recording: Recording) -> None:
+    rows = len(episode.values)
+    demo.attrs["num_samples"] = rows
+    demo.attrs["name"] = episode.name
+    state = demo.create_dataset("obs/state", data=episode.values)
+    state.attrs["names"] = json.dumps(recording.channels)
+    state.attrs["units"] = json.dumps(recording.units)
+    derived = {
+        "actions": next_rows(episode.values),
+        "rewards": np.zeros(rows),
+        "dones": (np.arange(rows) == rows - 1).astype(np.int64),
+    }
+    for name, values in derived.items():
+        demo.create_dataset(name, data=values).attrs[DERIVED] = "obs/state"

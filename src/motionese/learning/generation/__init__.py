@@ -1,0 +1,1 @@
+"""Generation in closed loop: single motions from initial states, and sequences of them."""

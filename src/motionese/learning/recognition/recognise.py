@@ -1,0 +1,187 @@
+"""Recognition: the weights frozen, the initial states of an observed motion found by descent.
+
+Of each motion any channels may be observed at any steps. The descent starts from several initial
+states at once: recalled ones of learned motions, those given, and random ones. The one that ends
+with the smallest error is kept, or that which first comes as near as motions were learned.
+"""
+
+from dataclasses import replace
+from math import isclose
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+from numpy import ndarray
+
+from motionese.channels import Channels
+from motionese.errors import ChannelError, SettingError
+from motionese.learning.fit import Fit
+from motionese.learning.memory import Memory, Recall
+from motionese.learning.motions.motions import Motions
+from motionese.learning.objective import with_shared_channels
+from motionese.learning.optimisers import recognition_rule
+from motionese.learning.recognition.descent import descend
+from motionese.learning.recognition.result import RecognitionResult, judged
+from motionese.learning.settings import Recognition
+from motionese.network import MTRNN
+
+SAME_RATE = 1e-3
+"""Share by which rates may differ and count as the same."""
+
+Model = MTRNN | Fit | tuple[MTRNN, Memory]
+"""What training left, or a network with what it has learned, or a trained network alone."""
+
+
+def recognise(
+    model: Model,
+    motion: Motions | Float[ndarray, "T D"],
+    *,
+    observed: list[str] | None = None,
+    rows: slice | None = None,
+    starts: Float[ndarray, "M N"] | None = None,
+    settings: Recognition | None = None,
+    key: Array | None = None,
+) -> RecognitionResult:
+    """Find the initial states from which the network generates a motion.
+
+    Args:
+        model: What training left, or a network and its memory; or a trained network alone, which
+            has no memory of its motions to start from, and can recognise few hidden channels.
+        motion: One motion, or its values [T, D] in the channels' units; what is not looked at may
+            be anything, NaN included.
+        observed: Names of the channels that are looked at; all if left out.
+        rows: The stretch of time that is looked at; all if left out. Row 0 stays the time of u_0.
+        starts: Initial states to start from beside the recalled and the random ones.
+        settings: Iterations, starts, rate, bounds.
+        key: JAX random key of the random starts; `jax.random.key(0)` where left out.
+    """
+    network, _, rate = _parts(model)
+    if not isinstance(motion, Motions):
+        if network.channels is None:
+            raise ChannelError("the network carries no channels; give the motion as Motions")
+        values = np.array(motion, dtype=np.float64, ndmin=1)
+        seen = _looked_at(len(values), network.channels, observed, rows)
+        motion = Motions.from_arrays([values], network.channels, rate or 1.0, observed=[seen])
+    if len(motion) != 1:
+        raise SettingError(f"recognise takes one motion, got {len(motion)}; see recognise_all")
+    seen = motion.observed[0] & _looked_at(motion.lengths[0], motion.channels, observed, rows)
+    motion = replace(motion, observed=(seen,))
+    given = None if starts is None else np.asarray(starts)[None]
+    return recognise_all(model, motion, starts=given, settings=settings, key=key)[0]
+
+
+def _looked_at(
+    length: int, channels: Channels, observed: list[str] | None, rows: slice | None
+) -> Bool[ndarray, "T D"]:
+    mask = np.zeros((length, len(channels)), dtype=bool)
+    columns = channels.indices(channels.names if observed is None else observed)
+    mask[slice(None) if rows is None else rows, columns] = True
+    return mask
+
+
+def recognise_all(
+    model: Model,
+    motions: Motions,
+    *,
+    starts: Float[ndarray, "S M N"] | None = None,
+    settings: Recognition | None = None,
+    key: Array | None = None,
+    padded_to: tuple[int, int] | None = None,
+) -> list[RecognitionResult]:
+    """Recognise many motions in one batch, each from its observed values alone.
+
+    Args:
+        model: What training left, a network and its memory, or a network alone; see `recognise`.
+        motions: The motions; their masks say what is looked at.
+        starts: Initial states to start from, so many for every motion.
+        settings: Iterations, starts, rate, bounds.
+        key: JAX random key of the random starts; `jax.random.key(0)` where left out.
+        padded_to: Motions and rows to pad the batch to, so that different batches share compiled
+            code.
+
+    Raises:
+        SettingError: Starts of another shape, channels or levels that the network does not have,
+            or another rate than the fit's.
+    """
+    settings = settings or Recognition()
+    network, memory, rate = _parts(model)
+    if rate is not None and not isclose(motions.rate_hz, rate, rel_tol=SAME_RATE):
+        raise SettingError(
+            f"the motions have {motions.rate_hz:g} rows a second, the model was trained at {rate:g}"
+        )
+    network, motions = with_shared_channels(network, motions)
+    if starts is not None and starts.shape[::2] != (len(motions), network.size):
+        raise SettingError(
+            f"starts must have shape [{len(motions)} motions, any number, {network.size} units], "
+            f"got {starts.shape}"
+        )
+    count, rows = padded_to or (len(motions), max(motions.lengths))
+    batch = motions.batch(rows, count)
+    recall = memory.nearest(network, batch) if memory is not None and memory.names else None
+    if starts is None and recall is None and not settings.starts:
+        starts = np.zeros((len(motions), 1, network.size))
+    free = _starts(network, count, starts, recall, settings, key)
+    states, losses, chosen = descend(
+        network,
+        batch,
+        free,
+        network.per_unit(settings.bound, jnp.inf),
+        recognition_rule(settings.optimiser, settings.rate, settings.momentum, settings.iterations),
+        jnp.asarray(settings.penalty),
+        settings.iterations,
+        _enough(memory, recall, free.shape[1]),
+    )
+    return judged(
+        network,
+        motions,
+        batch,
+        np.asarray(states),
+        np.asarray(losses),
+        np.asarray(chosen),
+        settings,
+    )
+
+
+def _parts(model: Model) -> tuple[MTRNN, Memory | None, float | None]:
+    """Return a model's network, and its memory and rate where they are known."""
+    if isinstance(model, Fit):
+        return model.network, model.memory, model.rate_hz
+    network, memory = model if isinstance(model, tuple) else (model, None)
+    return network, memory, None
+
+
+def _enough(
+    memory: Memory | None, recall: Recall | None, starts: int
+) -> Float[Array, "S M"] | None:
+    """Return for every start, the recalled ones first, the loss that is small enough.
+
+    None where nobody knows how well motions were learned.
+    """
+    if memory is None or recall is None or np.isnan(memory.errors).all():
+        return None
+    others = np.repeat(recall.typical[:, None], starts - recall.enough.shape[1], axis=1)
+    return jnp.asarray(np.hstack([recall.enough, others]), float)
+
+
+def _starts(
+    network: MTRNN,
+    count: int,
+    given: Float[ndarray, "G H N"] | None,
+    recall: Recall | None,
+    settings: Recognition,
+    key: Array | None,
+) -> Float[Array, "S M N"]:
+    dtype = network.weights.dtype
+    key = jax.random.key(0) if key is None else key
+    parts = [] if recall is None else [jnp.asarray(recall.starts, dtype)]
+    if given is not None:
+        idle = count - len(given)
+        parts.append(jnp.pad(jnp.asarray(given, dtype), ((0, idle), (0, 0), (0, 0))))
+    if settings.starts:
+        # One key a motion, so that a motion's starts do not depend on what is recognised with it.
+        keys = jax.vmap(lambda i: jax.random.fold_in(key, i))(jnp.arange(count))
+        shape = (settings.starts, network.size)
+        drawn = jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
+        parts.append(settings.spread * drawn)
+    return jnp.concatenate(parts, axis=1)

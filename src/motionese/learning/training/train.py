@@ -1,0 +1,80 @@
+"""Training: equations (4) and (5), the weights by α and every motion's initial states by β."""
+
+from collections.abc import Callable
+from pathlib import Path
+from time import monotonic
+
+from jaxtyping import Array, Float
+from numpy import ndarray
+
+from motionese.learning.fit import Fit
+from motionese.learning.motions.motions import Motions
+from motionese.learning.settings import Training
+from motionese.learning.status import Progress
+from motionese.learning.training.trainer import make_trainer
+from motionese.network import MTRNN
+
+CHECKPOINT_EVERY_S = 5.0
+"""A kill loses at most about so many seconds of training."""
+
+
+def train(
+    network: MTRNN,
+    motions: Motions,
+    *,
+    epochs: int | None = None,
+    settings: Training | None = None,
+    initial_states: Float[ndarray, "S N"] | None = None,
+    validation: Motions | None = None,
+    key: Array | None = None,
+    padded_to: tuple[int, int] | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    checkpoint: str | Path | None = None,
+) -> Fit:
+    """Train a network on motions: equations (3)–(5), of whatever `settings.learned` names.
+
+    Held-out motions are recognised after every chunk of epochs, the weights frozen: their loss
+    tells how well motions that were not learned fit the network.
+
+    Args:
+        network: Where to start from.
+        motions: What to learn.
+        epochs: Overrides `settings.epochs`.
+        settings: Rates, optimiser, bounds, noise.
+        initial_states: Initial states of every motion to start from; 0 where left out.
+        validation: Motions held out.
+        key: JAX random key of the state noise; needed where there is any.
+        padded_to: Motions and rows to pad the batch to, so that different batches share compiled
+            code.
+        progress: Called between chunks of epochs.
+        checkpoint: Where training is kept every few seconds; if the file is there, training goes
+            on from it, to the same bits as without a break. At the end it is left, and gives the
+            same fit at once: whoever has saved the fit removes it.
+
+    Raises:
+        SettingError: Channels, a rate or initial states do not fit, an unknown level in bounds or
+            noise, noise without a key, no epochs, or an error that the network has no variance for.
+        StorageError: The checkpoint belongs to another training, or cannot be read.
+    """
+    trainer = make_trainer(
+        network, motions, epochs, settings or Training(), initial_states, validation, key, padded_to
+    )
+    state = trainer.beginning
+    checkpoint = None if checkpoint is None else Path(checkpoint)
+    if checkpoint and checkpoint.exists():
+        state = state.resumed(checkpoint, trainer.origin)
+    status, written = trainer.ended(state), monotonic()
+    try:
+        while status is None:
+            state, status = trainer.advanced(state)
+            if status and status.failed:
+                break
+            if progress:
+                progress(trainer.progress(state))
+            if checkpoint and monotonic() - written > CHECKPOINT_EVERY_S:
+                state.write(checkpoint, trainer.origin)
+                written = monotonic()
+    finally:
+        if checkpoint and not (status and status.failed):
+            state.write(checkpoint, trainer.origin)
+    return trainer.fit(state, status)

@@ -1,0 +1,256 @@
+"""One training: what stays the same all through it, and what follows from its state."""
+
+from dataclasses import dataclass, replace
+from hashlib import sha256
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optax
+from jaxtyping import Array, Float
+from numpy import ndarray
+
+from motionese.errors import SettingError
+from motionese.learning.accuracy import errors_of, share_of_range
+from motionese.learning.error import ERRORS, Error
+from motionese.learning.fit import Fit
+from motionese.learning.motions.batch import Batch
+from motionese.learning.motions.motions import Motions
+from motionese.learning.objective import initial_potentials, with_shared_channels
+from motionese.learning.optimisers import training_rule
+from motionese.learning.parameters import Parameters, learned_by
+from motionese.learning.recognition.recognise import recognise_all
+from motionese.learning.settings import Recognition, Training
+from motionese.learning.status import Ending, Progress, Status
+from motionese.learning.training.epochs import Iterate, run_epochs
+from motionese.learning.training.training_state import TrainingState
+from motionese.network import MTRNN
+
+CHUNK = 100
+"""Epochs in one compiled call; progress is told and convergence judged between calls."""
+WARM = Recognition(iterations=50, starts=0, rate=0.1)
+"""Held-out motions are recognised from where the last recognition ended, so a few updates do."""
+
+
+@dataclass(frozen=True)
+class Trainer:
+    """What stays the same all through a training; its state is what changes."""
+
+    start: Parameters
+    learned: tuple[str, ...]
+    motions: Motions
+    validation: Motions | None
+    batch: Batch
+    rule: optax.GradientTransformation
+    error: Error
+    bound: Float[Array, " N"]
+    noise: Float[Array, " N"] | None
+    key: Array
+    settings: Training
+
+    @property
+    def beginning(self) -> TrainingState:
+        """The state before the first epoch."""
+        free = self.start.free(self.learned)
+        first = Iterate(free, self.rule.init(free), jnp.asarray(0))
+        held_out = np.zeros((len(self.validation or ()), self.start.network.size))
+        return TrainingState(first, first, held_out, np.zeros(0), np.zeros(0))
+
+    @property
+    def origin(self) -> dict[str, str]:
+        """What a checkpoint must agree on, for its training to go on to the same bits."""
+        net = self.start.network
+        kind = str((net.sizes, net.names, net.learned_bias, net.initial_io))
+        # Motions before networks: another number of motions is another start of both.
+        parts = {
+            "settings": (self.settings.model_dump_json(), jax.random.key_data(self.key)),
+            "motions": (*self.batch, *(self.validation.batch() if self.validation else ())),
+            "networks": (kind, *jax.tree.leaves(self.start)),
+        }
+        return {name: _digest(*values) for name, values in parts.items()}
+
+    def advanced(self, state: TrainingState) -> tuple[TrainingState, Status | None]:
+        """Return the state a chunk of epochs later, and how training ended if it did."""
+        following, chunk = run_epochs(
+            state.latest,
+            self.start,
+            self.batch,
+            self.rule,
+            self.error,
+            jnp.asarray(self.settings.teacher_forcing, self.start.network.weights.dtype),
+            self.bound,
+            self.noise,
+            self.key,
+            min(CHUNK, self.settings.epochs - len(state.losses)),
+        )
+        losses = np.concatenate([state.losses, np.asarray(chunk)])
+        diverged = _diverged(losses, state.latest, following)
+        if diverged:
+            return replace(state, losses=losses), diverged
+        state = replace(state, latest=following, losses=losses)
+        if self.validation:
+            found = recognise_all(
+                self.start.moved(following.free).network,
+                self.validation,
+                starts=state.held_out[:, None],
+                settings=WARM,
+            )
+            loss = sum(each.loss for each in found)
+            better = loss < state.validation_losses.min(initial=np.inf)
+            state = replace(
+                state,
+                held_out=np.stack([each.initial_state for each in found]),
+                validation_losses=np.append(state.validation_losses, loss),
+                best=following if better else state.best,
+            )
+        return state, self.ended(state)
+
+    def ended(self, state: TrainingState) -> Status | None:
+        """Return how training ended, or None while it goes on."""
+        converged = _converged(state, self.settings, bool(self.validation))
+        if converged is None and len(state.losses) == self.settings.epochs:
+            return Status(Ending.STOPPED, f"all {self.settings.epochs} epochs done")
+        return converged
+
+    def progress(self, state: TrainingState) -> Progress:
+        """Return how good the network is by now."""
+        now, channels = self.start.moved(state.latest.free), self.motions.channels
+        closed = share_of_range(self._errors(now, 0.0), channels)
+        held_out = None
+        if self.validation:
+            errors = errors_of(now.network, self.validation.batch(), state.held_out, 0.0)
+            held_out = share_of_range(errors, channels)
+        return Progress(
+            epoch=len(state.losses),
+            loss=float(state.losses[-1]),
+            closed_loop_error=closed,
+            validation_loss=float(state.validation_losses[-1]) if self.validation else None,
+            validation_error=held_out,
+        )
+
+    def fit(self, state: TrainingState, status: Status) -> Fit:
+        """Return what training left: its latest network, or the best where one was looked for."""
+        early = self.validation is not None and self.settings.patience > 0
+        end = self.start.moved((state.best if early else state.latest).free)
+        states = initial_potentials(end.network, self.batch, end.initial_states)
+        fit = Fit(
+            network=end.network,
+            initial_states=np.asarray(states)[: len(self.motions)],
+            names=self.motions.names,
+            lengths=self.motions.lengths,
+            rate_hz=self.motions.rate_hz,
+            losses=state.losses,
+            validation_losses=state.validation_losses,
+            teacher_forced_error=self._errors(end, 1.0),
+            closed_loop_error=self._errors(end, 0.0),
+            validation_names=self.validation.names if self.validation else (),
+            validation_error=np.zeros((0, len(self.motions.channels))),
+            status=status,
+        )
+        if self.validation is None:
+            return fit
+        found = recognise_all(fit, self.validation)
+        return replace(fit, validation_error=np.stack([f.residual for f in found]))
+
+    def _errors(self, now: Parameters, forced: float) -> Float[ndarray, "S D"]:
+        errors = errors_of(now.network, self.batch, now.initial_states, forced)
+        return errors[: len(self.motions)]
+
+
+def make_trainer(
+    network: MTRNN,
+    motions: Motions,
+    epochs: int | None,
+    settings: Training,
+    initial_states: Float[ndarray, "S N"] | None,
+    validation: Motions | None,
+    key: Array | None,
+    padded_to: tuple[int, int] | None,
+) -> Trainer:
+    """Check what is to be trained, with the arguments of `train`."""
+    settings = settings if epochs is None else settings.model_copy(update={"epochs": epochs})
+    if settings.epochs < 1:
+        raise SettingError(f"epochs must be ≥ 1, got {settings.epochs}")
+    network, motions = with_shared_channels(network, motions)
+    if validation is not None:
+        if validation.rate_hz != motions.rate_hz:
+            raise SettingError(
+                f"the held-out motions have {validation.rate_hz:g} rows a second, "
+                f"the others {motions.rate_hz:g}"
+            )
+        _, validation = with_shared_channels(network, validation)
+    noise = network.per_unit(settings.noise, 0.0) if any(settings.noise.values()) else None
+    if key is None and noise is not None:
+        raise SettingError("training with state noise needs a key, got none")
+    count, rows = padded_to or (len(motions), max(motions.lengths))
+    error = ERRORS[settings.error]
+    if error.variance and not network.variance:
+        raise SettingError(
+            f"the error '{settings.error}' needs a network that predicts variances, "
+            "drawn with variance=True"
+        )
+    learned = learned_by(network, settings.learned)
+    return Trainer(
+        start=Parameters(network, _states(network, len(motions), count, initial_states)),
+        learned=learned,
+        motions=motions,
+        validation=validation,
+        batch=motions.batch(rows, count),
+        rule=training_rule(settings, learned),
+        error=error,
+        bound=network.per_unit(settings.bound, jnp.inf),
+        noise=noise,
+        key=jax.random.key(0) if key is None else key,
+        settings=settings,
+    )
+
+
+def _states(
+    network: MTRNN, motions: int, count: int, given: Float[ndarray, "S N"] | None
+) -> Float[Array, "C N"]:
+    """Return the initial states to start from, for `count` motions with those that pad."""
+    states = np.zeros((count, network.size))
+    if given is not None:
+        if given.shape != (motions, network.size):
+            raise SettingError(
+                f"initial states must have shape {(motions, network.size)}, got {given.shape}"
+            )
+        states[:motions] = given
+    return jnp.asarray(states, network.weights.dtype)
+
+
+def _digest(*values: object) -> str:
+    whole = sha256()
+    for value in values:
+        whole.update(value.encode() if isinstance(value, str) else np.asarray(value).tobytes())
+    return whole.hexdigest()
+
+
+def _diverged(losses: Float[ndarray, " E"], before: Iterate, after: Iterate) -> Status | None:
+    """Return that a loss or a parameter is no longer finite, and where, or None if all are."""
+    wrong = np.flatnonzero(~np.isfinite(losses))
+    if after.finite and not len(wrong):
+        return None
+    epoch = int(wrong[0]) if len(wrong) else int(after.epoch)
+    return Status(
+        Ending.DIVERGED,
+        f"the loss or a weight was no longer finite at epoch {epoch}; "
+        f"what was learned in {int(before.epoch)} epochs is kept",
+    )
+
+
+def _converged(state: TrainingState, settings: Training, held_out: bool) -> Status | None:
+    """Return that the loss no longer falls, or None while it does or nobody asks."""
+    watched, patience = state.losses, settings.patience
+    if held_out:
+        watched, patience = state.validation_losses, -(-settings.patience // CHUNK)
+    if patience and len(watched) > patience:
+        before, since = watched[:-patience].min(), watched[-patience:].min()
+        if since > before - settings.tolerance * abs(before):
+            whose = " of the held-out motions" if held_out else ""
+            return Status(
+                Ending.CONVERGED,
+                f"the loss{whose} fell by less than {settings.tolerance:g} of itself "
+                f"in {settings.patience} epochs, at epoch {len(state.losses)}",
+            )
+    return None

@@ -1,0 +1,138 @@
+"""From what a file holds to what can be learned from: chosen, finite, even, with ranges."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Bool, Float
+from numpy import ndarray
+
+from motionese.errors import ChannelError, MotionError
+from motionese.recordings.choice import Choice, chosen, matching
+from motionese.recordings.grid import even, resampled
+from motionese.recordings.rate import rate_of
+from motionese.recordings.recording import Episode, Recording
+
+LARGEST = 1e100
+"""Beyond this, squares and differences are no longer finite."""
+
+
+def prepare(recording: Recording, choice: Choice) -> Recording:
+    """Return a recording of the chosen channels at one rate, every channel with a range.
+
+    Raises:
+        ChannelError: A channel that does not exist, or whose range cannot be told.
+        MotionError: A value that is not finite, or an episode of fewer than two rows.
+        RecordingError: A rate that nobody tells or that differs, or times that do not rise.
+        SettingError: A rate to resample to that is out of reach.
+    """
+    recording = finite(chosen(recording, choice), nan_is_gap=choice.nan == "gap")
+    _check_lengths(recording)
+    recording = even(recording, rate_of(recording, choice.rate_hz))
+    if choice.resample_hz is not None:
+        recording = resampled(recording, choice.resample_hz)
+    if choice.trim > 0:
+        recording = trimmed(recording, choice.trim, all_ranges(recording, choice))
+    _check_lengths(recording)
+    return replace(recording, ranges=all_ranges(recording, choice))
+
+
+def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
+    """Return the recording with finite values wherever something was observed.
+
+    Raises:
+        MotionError: An infinite value, or a NaN that is no gap.
+    """
+    if nan_is_gap:
+        recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
+    wrong = recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST))
+    if wrong is not None:
+        where, value = wrong
+        hint = "; --nan gap takes NaN as not observed" if np.isnan(value) else ""
+        raise MotionError(
+            f"{recording.source}: {where}: values must be finite, got {value:g}{hint}"
+        )
+    return recording
+
+
+def trimmed(
+    recording: Recording, share: float, ranges: Mapping[str, tuple[float, float]]
+) -> Recording:
+    """Return the recording without the still ends of its episodes.
+
+    A row is still while no channel has moved by more than `share` of its range from the first
+    row (from the last, at the end). Of either end the last still row is kept. An episode that
+    is still throughout has no ends, and is kept whole.
+    """
+    widths = np.array([ranges[c][1] - ranges[c][0] for c in recording.channels])
+
+    def without_ends(episode: Episode) -> Episode:
+        start, end = still_ends(episode, share * widths)
+        stop = len(episode.values) - end
+        return episode.part(slice(start, stop)) if stop - start >= 2 else episode
+
+    return recording.map(without_ends)
+
+
+def still_ends(episode: Episode, limits: Float[ndarray, " D"]) -> tuple[int, int]:
+    """Return how many rows at the start and at the end can be cut, one still row being kept."""
+    values, observed = episode.values, episode.observed
+    at_end = _still_rows(values[::-1], observed[::-1], limits)
+    return _still_rows(values, observed, limits), at_end
+
+
+def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[float, float]:
+    """Return the lowest and highest value, widened on both sides by a share of their distance.
+
+    Raises:
+        ChannelError: Nothing was observed, or it is always the same.
+    """
+    if not len(seen) or seen.min() == seen.max():
+        what = f"is always {seen[0]:g}" if len(seen) else "is never observed"
+        raise ChannelError(f"channel '{name}' {what}: give its range or leave it out")
+    low, high = float(seen.min()), float(seen.max())
+    return low - margin * (high - low), high + margin * (high - low)
+
+
+def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
+    """Return the range of every channel: given by the user, told by the file, or of the data.
+
+    Raises:
+        ChannelError: A range for no channel, or a channel that has none and never changes.
+    """
+    ranges = dict(recording.ranges)
+    for pattern, limits in choice.ranges.items():
+        ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)
+    for column, name in enumerate(recording.channels):
+        if name not in ranges:
+            seen = [e.values[e.observed[:, column], column] for e in recording.episodes]
+            try:
+                ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
+            except ChannelError as error:
+                raise ChannelError(
+                    f"{recording.source}: {error} (--range {name}=LOW:HIGH, --exclude {name})"
+                ) from error
+    return {name: ranges[name] for name in recording.channels}
+
+
+def _check_lengths(recording: Recording) -> None:
+    for episode in recording.episodes:
+        rows = len(episode.values)
+        if rows < 2:
+            raise MotionError(
+                f"{recording.source}: episode '{episode.name}' has "
+                f"{'1 row' if rows == 1 else 'no rows'}; at least 2 are needed"
+            )
+
+
+def _still_rows(
+    values: Float[ndarray, "T D"], observed: Bool[ndarray, "T D"], limits: Float[ndarray, " D"]
+) -> int:
+    """Return the rows before the last one that is still at its channels' first values."""
+    if not len(values):
+        return 0
+    first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
+    # What was not observed may be NaN or infinite.
+    with np.errstate(invalid="ignore"):
+        moved = ((np.abs(values - first) > limits) & observed).any(axis=1)
+    return max(int(np.argmax(moved)) - 1, 0) if moved.any() else len(values) - 1

@@ -1,0 +1,140 @@
+"""Which format a file or folder of recordings is in, and reading and writing it."""
+
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from unicodedata import category
+
+from motionese.errors import RecordingError, SettingError, unknown
+from motionese.recordings.formats import csv, eipl, lerobot, mcap, npz, robomimic
+from motionese.recordings.recording import Recording
+
+
+@dataclass(frozen=True)
+class Format:
+    """One format: how it is recognised, and the module that reads and writes it.
+
+    Attributes:
+        what: What is read, in words.
+        module: Its functions are `read(path) -> Recording` and `write(path, recording)`.
+        suffixes: Of a file in this format.
+        inside: Patterns of a file that a folder in this format holds.
+    """
+
+    what: str
+    module: ModuleType
+    suffixes: tuple[str, ...] = ()
+    inside: tuple[str, ...] = ()
+
+
+JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
+TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
+FORMATS = {
+    "npz": Format("motionese's own .npz", npz, (".npz",)),
+    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
+    "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
+    "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
+    "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
+    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES),
+}
+"""By name, in the order in which a folder is tried."""
+CONTROL = ("Cc", "Cs")
+"""Kinds of characters that are no text: control characters, and halves of what is no UTF-8."""
+
+
+def read(
+    path: str | Path,
+    format: str | None = None,
+    *,
+    episode: str | None = None,
+    time: str | None = None,
+) -> Recording:
+    """Read a file or folder of recordings.
+
+    Args:
+        path: The file or folder.
+        format: One of `FORMATS`; found from the name or what the folder holds where left out.
+        episode: The column that names the episode, where the file is a table (csv).
+        time: The column that holds the time, where the file is a table (csv).
+
+    Raises:
+        RecordingError: Nothing there, or not what it is said to be.
+        SettingError: A format that does not exist, or columns named for what is no table.
+    """
+    path = Path(path)
+    try:
+        there = path.exists()
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
+    if not there:
+        raise RecordingError(f"{path}: there is no such file or folder")
+    name = _known(format) if format is not None else _found(path)
+    given = {k: v for k, v in (("episode", episode), ("time", time)) if v is not None}
+    if given and name != "csv":
+        raise SettingError(f"{path}: {next(iter(given))} names a column of csv; this is {name}")
+    return _checked(FORMATS[name].module.read(path, **given))
+
+
+def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
+    """Write a recording, whole or not at all.
+
+    Args:
+        path: The file or folder to write.
+        recording: What to write.
+        format: One of `FORMATS`; from the suffix of `path` where left out.
+
+    Raises:
+        RecordingError: The format cannot hold the recording, or `path` cannot be written.
+        SettingError: A format that does not exist, or none given and a suffix that tells none.
+    """
+    path = Path(path)
+    name = _known(format) if format is not None else _by_suffix(path)
+    if name is None:
+        raise SettingError(
+            f"{path}: its name does not tell the format; end it in "
+            f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
+            f"or name the format (--to), one of {', '.join(FORMATS)}"
+        )
+    FORMATS[name].module.write(path, _checked(recording))
+
+
+def _known(format: str) -> str:
+    if format not in FORMATS:
+        raise SettingError(unknown("format", format, FORMATS))
+    return format
+
+
+def _found(path: Path) -> str:
+    name = _by_suffix(path)
+    if path.is_dir():
+        holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
+        name = next(holding, None)
+    if name is None:
+        known = ", ".join(f.what for f in FORMATS.values())
+        raise RecordingError(f"{path}: not a recording that is read here: {known}")
+    return name
+
+
+def _by_suffix(path: Path) -> str | None:
+    return next((n for n, f in FORMATS.items() if path.suffix.lower() in f.suffixes), None)
+
+
+def _checked(recording: Recording) -> Recording:
+    """Check what holds for every format, so that no reader need check it."""
+    episodes = tuple(e.name for e in recording.episodes)
+    for kind, names in (("channel", recording.channels), ("episode", episodes)):
+        if not names:
+            raise RecordingError(f"{recording.source}: holds no {kind}")
+        strange = [n for n in names if not n.strip() or any(category(c) in CONTROL for c in n)]
+        if strange:
+            raise RecordingError(
+                f"{recording.source}: a {kind} is called {strange[0]!a}; "
+                "names are text without line breaks"
+            )
+        doubled = [name for name, count in Counter(names).items() if count > 1]
+        if doubled:
+            raise RecordingError(
+                f"{recording.source}: {kind} names must be unique; doubled: {', '.join(doubled)}"
+            )
+    return recording
