@@ -279,7 +279,7 @@ def test_progress_fits_a_terminal_of_80_columns(capsys):
     console = Console(force_terminal=True, width=80, color_system=None)
     with TrainingDisplay(console, 30000, 0) as display:
         display.show(Progress(12300, 0.000034567, 0.1234, 1.0, 0.2345))
-        display._bar.refresh()
+        display._bars.refresh()
     shown = capsys.readouterr().out
 
     assert "12300/30000 loss 3.46e-05, closed loop 12.3%, held out 23.4% of range" in shown

@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, TypeVar
 
 from rich.console import Console
 from rich.progress import (
@@ -29,6 +29,8 @@ WHOLE_HISTORY_S, TRAINING_HISTORY_S = 1e9, 60.0
 """How far back the time left is told from. Loops come in bursts, with compilation between them:
 only the whole history gives a rate."""
 
+Own = TypeVar("Own", bound="_Display")
+
 
 class _Display:
     """Bars while it is entered, if the console is a terminal."""
@@ -36,7 +38,7 @@ class _Display:
     def __init__(self, console: Console, bars: Bars) -> None:
         self._console, self._bars, self._said = console, bars, time.monotonic()
 
-    def __enter__(self) -> Self:
+    def __enter__(self: Own) -> Own:
         if self._console.is_terminal:
             self._bars.start()
         return self

@@ -12,7 +12,7 @@ from contextlib import ExitStack
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Protocol, Self, runtime_checkable
+from typing import Protocol, runtime_checkable
 
 from motionese.errors import SettingError, needs, unknown
 from motionese.files import write_whole
@@ -58,7 +58,7 @@ class Logs:
             for log in self._logs:
                 closing.callback(log.close)
 
-    def __enter__(self) -> Self:
+    def __enter__(self) -> "Logs":
         return self
 
     def __exit__(self, *left: object) -> None:
