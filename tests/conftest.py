@@ -1,4 +1,4 @@
-"""What all tests share: one thread, checked array shapes, double precision, fixed examples."""
+"""What all tests share: one thread, fast compilation, checked shapes, fixed examples."""
 
 import os
 
@@ -14,6 +14,9 @@ install_import_hook("motionese", "typechecking.checked")
 import jax  # noqa: E402
 import jaxtyping  # noqa: E402
 import pytest  # noqa: E402
+
+# The tests compile far longer than they compute. Commands they start compile as users' do.
+jax.config.update("jax_disable_most_optimizations", True)
 
 settings.register_profile(
     "motionese",

@@ -131,16 +131,6 @@ def test_claims_table_beside_the_page(whole):
     assert (claims.loc[claims["claim"].str.startswith("(a)"), "verdict"] == "holds").all()
 
 
-def test_the_same_runs_give_the_same_bytes(whole, eight_seeds, tmp_path):
-    folder = tmp_path / "mine"
-    shutil.copytree(eight_seeds, folder)
-    write_report(folder)
-    first = {p.relative_to(whole[0]): p.read_bytes() for p in whole[0].rglob("*") if p.is_file()}
-    second = {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
-    assert first.keys() == second.keys()
-    assert [p for p in first if first[p] != second[p]] == []
-
-
 def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
     for seed in range(2):
         make_run(tmp_path, TD_MD, seed)
@@ -203,11 +193,21 @@ def test_verdicts_on_several_parts_are_explained(whole):
     assert "divided by the number of parts (Bonferroni)" in whole[3].text
 
 
-def test_a_report_is_written_anew(tmp_path, make_run, unrendered):
-    make_run(tmp_path, TD_MD, 0)
-    write_report(tmp_path)
-    make_run(tmp_path, TD_MD, 1)
-    assert write_report(tmp_path).runs == 2
+def test_written_anew_or_at_once_the_same_runs_give_the_same_bytes(tmp_path, make_run, unrendered):
+    anew, at_once = tmp_path / "anew" / "mine", tmp_path / "at once" / "mine"
+    make_run(anew, TD_MD, 0)
+    write_report(anew)
+    make_run(anew, TD_MD, 1)
+    assert write_report(anew).runs == 2
+    for seed in range(2):
+        make_run(at_once, TD_MD, seed)
+    write_report(at_once)
+    first, second = (
+        {path.relative_to(root): path.read_bytes() for path in root.rglob("*") if path.is_file()}
+        for root in (anew, at_once)
+    )
+    assert first.keys() == second.keys()
+    assert [path for path in first if first[path] != second[path]] == []
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path, make_run, monkeypatch):

@@ -1,5 +1,6 @@
 """The robot moves, learns and grows while a person looks on, and the page remembers."""
 
+import pytest
 from page.person import changed
 
 
@@ -16,6 +17,7 @@ def test_the_robot_moves_on_the_canvas(person):
     assert changed(before, person.sees("robot")) > 0.004
 
 
+@pytest.mark.slow
 def test_a_newborn_learns_and_grows_and_is_found_again(parent):
     parent.shows("UL ↓")
     learned = parent.lets_it_learn()["learned"]
