@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 from invented_runs import CONDITIONS
 
-from motionese.analysis.measures import Measures, error_at_end, typical_seed
 from motionese.analysis.mochizuki2013 import claims
+from motionese.analysis.seed_measures import Measures, error_at_end, typical_seed
 from motionese.analysis.verdicts import COLUMNS, Claim, Part, claims_table, judge, judge_alone
 
 NAMES = [c.name for c in CONDITIONS]

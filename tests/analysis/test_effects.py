@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from motionese.analysis.effects import effects
-from motionese.analysis.measures import Measures
+from motionese.analysis.seed_measures import Measures
 
 FACTORS = {"teaching": ("TD", "TND"), "structuring": ("MD", "MND")}
 NAMES = ["TD/MD", "TD/MND", "TND/MD", "TND/MND"]

@@ -8,7 +8,7 @@ from small_models import CHANNELS, INITIAL_IO, written
 
 from motionese import generate
 from motionese.errors import ControlError, SettingError
-from motionese.learning.generation.sequence import generate_sequence
+from motionese.learning.generation.chain import generate_sequence
 from motionese.runtime import Player, load
 
 WIDTHS = CHANNELS.interval_widths

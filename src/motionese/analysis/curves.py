@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from motionese.analysis.measures import achieved
+from motionese.analysis.seed_measures import achieved
 from motionese.analysis.statistics import estimate
 from motionese.analysis.style import Look, light_grid
 from motionese.figure_style import FAINT, WIDTH

@@ -6,7 +6,7 @@ from itertools import combinations, product
 import numpy as np
 import pandas as pd
 
-from motionese.analysis.measures import Measures
+from motionese.analysis.seed_measures import Measures
 from motionese.analysis.statistics import Contrast, contrast
 from motionese.errors import TooFewSeedsError
 

@@ -7,16 +7,16 @@ import pandas as pd
 from matplotlib import rc_context
 from numpy import ndarray
 
-from motionese.analysis.collected import Collected
 from motionese.analysis.curves import error_sources, learning_curves, success
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.film import film
 from motionese.analysis.inside import Performed, inside
 from motionese.analysis.map_figure import slow_state_map
 from motionese.analysis.map_numbers import level_names
-from motionese.analysis.measures import Measures, typical_seed
 from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
+from motionese.analysis.seed_measures import Measures, typical_seed
 from motionese.analysis.style import Sketch
 from motionese.figure_style import SETTINGS, Drawing, finished
 from motionese.imitation import sample_sequence
@@ -37,24 +37,24 @@ class Shown:
     drawing: Drawing
 
 
-def figures(collected: Collected, measures: Measures) -> Iterator[Shown]:
+def figures(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     """Draw all figures that the runs allow, one after the other."""
     for draw in (_over_loops, _of_new_sequences, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):
             drawn = [
                 Shown(each.name, each.section, each.caption, finished(each.figure, each.name))
-                for each in draw(collected, measures)
+                for each in draw(data, measures)
             ]
         yield from drawn
 
 
-def _over_loops(collected: Collected, measures: Measures) -> Iterator[Sketch]:
-    loops, looks = collected.loops, collected.looks
-    converged = CONVERGED_CM if has_its_design(collected.study) else None
+def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+    loops, looks = data.loops, data.looks
+    converged = CONVERGED_CM if has_its_design(data.study) else None
     stages = (
         " Upright lines are changes of stage: what is taught changes, or a level of the network "
         "opens."
-        if len(collected.study.stages) > 1
+        if len(data.study.stages) > 1
         else ""
     )
     yield Sketch(
@@ -76,14 +76,14 @@ def _over_loops(collected: Collected, measures: Measures) -> Iterator[Sketch]:
         "success",
         "success",
         "What was achieved, all seeds and motions of a loop together: "
-        f"{'; '.join(outcome.title for outcome in collected.task.outcomes)}.",
-        success(loops, looks, collected.task.outcomes),
+        f"{'; '.join(outcome.title for outcome in data.task.outcomes)}.",
+        success(loops, looks, data.task.outcomes),
     )
 
 
-def _of_new_sequences(collected: Collected, measures: Measures) -> Iterator[Sketch]:
-    present = set(collected.new_sequences["condition"])
-    looks = {name: look for name, look in collected.looks.items() if name in present}
+def _of_new_sequences(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+    present = set(data.new_sequences["condition"])
+    looks = {name: look for name, look in data.looks.items() if name in present}
     if looks:
         yield Sketch(
             "new_sequences",
@@ -96,11 +96,11 @@ def _of_new_sequences(collected: Collected, measures: Measures) -> Iterator[Sket
         )
 
 
-def _of_the_map(collected: Collected, measures: Measures) -> Iterator[Sketch]:
+def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
     shown = _typical(measures.resultant_length)
     if not shown:
         return
-    below, top = (name.capitalize() for name in level_names(collected.study))
+    below, top = (name.capitalize() for name in level_names(data.study))
     for segment, what, right in (
         (1, "the first segment", "the primitive's own direction"),
         (2, "the second segment", "the direction of a primitive that may follow"),
@@ -113,18 +113,18 @@ def _of_the_map(collected: Collected, measures: Measures) -> Iterator[Sketch]:
             f"45° of {right}; in pink: beyond. An arrow fills its cell where the hand goes as far "
             "as the stroke is long. Shown is the seed of median resultant length: "
             f"{_in_words(shown)}; the numbers below are over all seeds.",
-            slow_state_map(collected, shown, segment),
+            slow_state_map(data, shown, segment),
         )
 
 
-def _of_the_inside(collected: Collected, measures: Measures) -> Iterator[Sketch]:
+def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
     """Draw paths, activity and a film strip of each condition's run of median error."""
-    errors = collected.new_sequences.pivot_table(
+    errors = data.new_sequences.pivot_table(
         index="seed", columns="condition", values="imitation_error_cm", aggfunc="mean"
     )
-    seeds = _typical(errors.reindex(columns=list(collected.looks)))
-    kept = {c: arrays for c, s in seeds.items() if (arrays := collected.inside(c, s))}
-    sample = sample_sequence(collected.task)
+    seeds = _typical(errors.reindex(columns=list(data.looks)))
+    kept = {c: arrays for c, s in seeds.items() if (arrays := data.inside(c, s))}
+    sample = sample_sequence(data.task)
     if not kept or sample is None:
         return
     chosen = f"Shown is the seed of median error: {_in_words({c: seeds[c] for c in kept})}."
@@ -134,7 +134,7 @@ def _of_the_inside(collected: Collected, measures: Measures) -> Iterator[Sketch]
         "The hand's path (coloured) against the shown one (grey), as the robot sees them, for "
         "every new sequence; the dot is where it starts, bars are where something is to be "
         f"pressed. {chosen}",
-        paths(kept, collected),
+        paths(kept, data),
     )
     yield Sketch(
         "inside",
@@ -143,11 +143,11 @@ def _of_the_inside(collected: Collected, measures: Measures) -> Iterator[Sketch]
         "on top, and the way of the context units through the plane of their largest variance. "
         "Upright lines and circled numbers: where the next primitive begins in what was shown; "
         f"dot: start; square: end. {chosen}",
-        inside({c: _performed(a, collected) for c, a in kept.items()}, sample.name,
-               collected.looks),
+        inside({c: _performed(a, data) for c, a in kept.items()}, sample.name,
+               data.looks),
     )  # fmt: skip
     strongest = max(kept, key=lambda c: _strongest_effect(kept[c]))
-    strip, note = film(kept[strongest], collected.robot.model, collected.robot.rate_hz)
+    strip, note = film(kept[strongest], data.robot.model, data.robot.rate_hz)
     yield Sketch(
         "film",
         "inside",
@@ -161,14 +161,14 @@ def _strongest_effect(kept: Mapping[str, ndarray]) -> float:
     return float(max(effects, default=0.0))
 
 
-def _performed(kept: Mapping[str, ndarray], collected: Collected) -> Performed:
+def _performed(kept: Mapping[str, ndarray], data: ExperimentData) -> Performed:
     activity, levels, begin = kept["activity"], {}, 0
-    for level in collected.study.network.drawn_levels(collected.robot.channels):
+    for level in data.study.network.drawn_levels(data.robot.channels):
         if begin < activity.shape[1]:
             levels[level.name] = slice(begin, begin + level.size)
             begin += level.size
     boundaries = [int(row) for row in kept["begins"][1:]]
-    return Performed(activity, levels, boundaries, collected.robot.rate_hz)
+    return Performed(activity, levels, boundaries, data.robot.rate_hz)
 
 
 def _typical(by_seed: pd.DataFrame) -> dict[str, int]:

@@ -10,8 +10,8 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from numpy import ndarray
 
-from motionese.analysis.collected import Collected
 from motionese.analysis.directions import WITHIN, following
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import level_names
 from motionese.analysis.style import ASTRAY
 from motionese.figure_style import FAINT, WIDTH
@@ -20,28 +20,28 @@ HEAD = np.radians(150)
 """The barbs of an arrow point back by this angle."""
 
 
-def slow_state_map(collected: Collected, shown: Mapping[str, int], segment: int) -> Figure:
+def slow_state_map(data: ExperimentData, shown: Mapping[str, int], segment: int) -> Figure:
     """Draw the map of one seed a condition: a row per condition, a column per primitive.
 
     An arrow is as long as a grid cell where the hand goes as far as the stroke is long.
 
     Args:
-        collected: The runs.
+        data: The runs.
         shown: The seed that is shown of each condition.
         segment: 1 for the primitive whose state is held, 2 for what follows it.
     """
-    points, strokes = collected.slow_state_map, collected.strokes
-    below, top = (name.capitalize() for name in level_names(collected.study))
+    points, strokes = data.slow_state_map, data.strokes
+    below, top = (name.capitalize() for name in level_names(data.study))
     figure = Figure(figsize=(WIDTH, 0.6 + 1.76 * len(shown)))
     panels = figure.subplots(len(shown), len(strokes), sharex=True, sharey=True, squeeze=False)
     for row, (condition, seed) in zip(panels, shown.items(), strict=True):
         own = points[(points["condition"] == condition) & (points["seed"] == seed)]
         for axes, name in zip(row, strokes, strict=True):
-            right = (name,) if segment == 1 else following(collected.task, name)
+            right = (name,) if segment == 1 else following(data.task, name)
             of = own[own["primitive"] == name]
             grid = of[[f"{top.lower()}_1", f"{top.lower()}_2"]].to_numpy(dtype=np.float64)
             ways = of[[f"direction_{segment}_rad", f"extent_{segment}_rad"]].to_numpy(np.float64)
-            colour = collected.looks[condition].colour
+            colour = data.looks[condition].colour
             _panel(axes, grid, ways, [strokes[r] for r in right], colour)
         row[0].set_ylabel(f"{condition}\n{top}₀, second unit")
     for axes, name in zip(panels[0], strokes, strict=True):

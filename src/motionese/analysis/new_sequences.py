@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from motionese.analysis.curves import Looks
-from motionese.analysis.measures import Measures
+from motionese.analysis.seed_measures import Measures
 from motionese.analysis.statistics import estimate
 from motionese.analysis.style import Look, light_grid
 from motionese.figure_style import FAINT, INK, PAPER, WIDTH

@@ -11,16 +11,16 @@ from markupsafe import Markup
 
 from motionese import __version__
 from motionese.analysis import mochizuki2013, page_tables
-from motionese.analysis.collected import Collected
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.facts import flat
 from motionese.analysis.figures import Shown
 from motionese.analysis.map_numbers import warnings
-from motionese.analysis.measures import LAST_LOOPS, Measures
+from motionese.analysis.seed_measures import LAST_LOOPS, Measures
 from motionese.analysis.verdicts import Judgement, claims_table
 
 
 def page(
-    collected: Collected,
+    data: ExperimentData,
     measures: Measures,
     numbers: pd.DataFrame,
     effects: pd.DataFrame,
@@ -31,7 +31,7 @@ def page(
     """Return the page as HTML.
 
     Args:
-        collected: The runs.
+        data: The runs.
         measures: What is compared.
         numbers: A row per condition and seed on its map.
         effects: A row per effect of a factor, or of two, on a measure.
@@ -39,27 +39,27 @@ def page(
         figures: The figures, in the order they are shown.
         too_few: Why tests could not be made, or "".
     """
-    facts, warned = collected.facts, warnings(numbers, collected.study)
+    facts, warned = data.facts, warnings(numbers, data.study)
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
                               lstrip_blocks=True)  # fmt: skip
     return environment.from_string(_part("report.html.jinja")).render(
         style=Markup(_part("report.css")),
-        name=collected.folder.resolve().name,
+        name=data.folder.resolve().name,
         version=__version__,
-        **_of_the_paper(measures, results, warned) if results else _of_any(collected, measures),
+        **_of_the_paper(measures, results, warned) if results else _of_any(data, measures),
         too_few=too_few,
         last_loops=LAST_LOOPS,
         effects=page_tables.effects_rows(effects),
-        errors=page_tables.errors_table(measures, collected),
-        map=page_tables.map_table(numbers, collected),
+        errors=page_tables.errors_table(measures, data),
+        map=page_tables.map_table(numbers, data),
         warnings=warned,
-        success=page_tables.success_table(collected),
-        runs=page_tables.runs_table(collected.runs),
-        failures=page_tables.failures_table(collected.runs),
+        success=page_tables.success_table(data),
+        runs=page_tables.runs_table(data.runs),
+        failures=page_tables.failures_table(data.runs),
         settings=list(flat(facts.study.model_dump(mode="json"))),
         record=list(flat(facts.record)),
         environment=list(flat(facts.environment)),
-        tables=["loops", *collected.novel, "slow_state_map", "map_numbers", "development",
+        tables=["loops", *data.novel, "slow_state_map", "map_numbers", "development",
                 "effects", *(["claims"] if results else []), "runs"],
         figures={
             section: [(f.name, f.caption, Markup(f.drawing.inline)) for f in each]
@@ -86,12 +86,12 @@ def _of_the_paper(
     }
 
 
-def _of_any(collected: Collected, measures: Measures) -> dict[str, Any]:
+def _of_any(data: ExperimentData, measures: Measures) -> dict[str, Any]:
     """Return what the page says of a study of another design."""
     last = measures.last_error.median().dropna().sort_values()
     told = ", ".join(f"{error:.1f} cm in {name}" for name, error in last.items())
     return {
-        "question": f"What was learned of {collected.task.title}?",
+        "question": f"What was learned of {data.task.title}?",
         "answer": [
             f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
         ],

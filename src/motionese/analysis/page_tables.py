@@ -3,9 +3,9 @@
 import pandas as pd
 
 from motionese.analysis.cells import NONE, Table, number, with_interval
-from motionese.analysis.collected import Collected
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import SEGMENTS, level_names
-from motionese.analysis.measures import Measures, last_loops
+from motionese.analysis.seed_measures import Measures, last_loops
 from motionese.analysis.statistics import Estimate, estimate
 from motionese.task import Outcome
 
@@ -42,14 +42,14 @@ def effects_rows(table: pd.DataFrame) -> Table:
     return Table(["effect", "measured", "mean [95 %]", "p", "d", "seeds"], rows)
 
 
-def errors_table(measures: Measures, collected: Collected) -> Table:
+def errors_table(measures: Measures, data: ExperimentData) -> Table:
     """Return the errors [cm] at the stages' ends and on new sequences."""
     stages = [f"end of stage {number}" for number in measures.error_at_end]
     head = ["condition", "seeds", *stages, "new, trained", "new, untrained", "sd over seeds",
             "residual, untrained"]  # fmt: skip
-    new, rows = collected.new_sequences, []
+    new, rows = data.new_sequences, []
     untrained = new[~new["trained"].astype(bool)]
-    for name in collected.looks:
+    for name in data.looks:
         columns = [table[name] for table in measures.error_at_end.values()]
         columns += [measures.trained_error[name], measures.untrained_error[name]]
         own = untrained[untrained["condition"] == name]
@@ -64,31 +64,31 @@ def errors_table(measures: Measures, collected: Collected) -> Table:
     return Table(head, rows)
 
 
-def success_table(collected: Collected) -> Table:
+def success_table(data: ExperimentData) -> Table:
     """Return what was achieved at the stages' ends and in new sequences."""
-    loops, new = collected.loops, collected.new_sequences
-    stages = range(1, len(collected.study.stages) + 1)
+    loops, new = data.loops, data.new_sequences
+    stages = range(1, len(data.study.stages) + 1)
     parts = {f"end of stage {n}": last_loops(loops[loops["phase"] == n]) for n in stages}
     trained = new["trained"].astype(bool)
     parts |= {"new, trained": new[trained], "new, untrained": new[~trained]}
     rows = []
-    for name in collected.looks:
-        for outcome in collected.task.outcomes:
+    for name in data.looks:
+        for outcome in data.task.outcomes:
             cells = [_achieved(p[p["condition"] == name], outcome) for p in parts.values()]
             rows.append([name, outcome.title, *cells])
     return Table(["condition", "what", *parts], rows)
 
 
-def map_table(numbers: pd.DataFrame, collected: Collected) -> Table:
+def map_table(numbers: pd.DataFrame, data: ExperimentData) -> Table:
     """Return the map's numbers, a row per condition and segment."""
-    below, top = level_names(collected.study)
+    below, top = level_names(data.study)
     shown_below, shown_top = below.capitalize(), top.capitalize()
     head = ["condition", "segment", "resultant length", "within 45°", f"by {shown_below}₀",
             f"by {shown_top}₀", "together", f"{shown_top}→{shown_below} rms before",
             "after"]  # fmt: skip
     shares = [f"share_{name}" for name in (below, top, "together")]
     rows = []
-    for condition in collected.looks:
+    for condition in data.looks:
         own = numbers[numbers["condition"] == condition]
         if own.empty:
             rows.append([condition, "no slow level, no map", *[NONE] * (len(head) - 2)])

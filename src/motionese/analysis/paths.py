@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy import ndarray
 
-from motionese.analysis.collected import Collected
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.figure_style import FAINT, INK, WIDTH
 from motionese.task import Task
 
@@ -16,14 +16,14 @@ CAP_RADIUS_CM = 3.5
 """Radius of a button's cap [cm]."""
 
 
-def paths(kept: Mapping[str, Mapping[str, ndarray]], collected: Collected) -> Figure:
+def paths(kept: Mapping[str, Mapping[str, ndarray]], data: ExperimentData) -> Figure:
     """Draw shown and performed paths as the robot sees them, its right on the right.
 
     Args:
         kept: What was kept of the shown run of each condition.
-        collected: The runs, for the task and how conditions look.
+        data: The runs, for the task and how conditions look.
     """
-    task = collected.task
+    task = data.task
     motions = [s.name for name in task.novel for s in task.lesson(name)]
     figure = Figure(figsize=(WIDTH, 0.7 + 1.22 * len(kept)))
     panels = figure.subplots(len(kept), len(motions), sharex=True, sharey=True, squeeze=False)
@@ -32,7 +32,7 @@ def paths(kept: Mapping[str, Mapping[str, ndarray]], collected: Collected) -> Fi
             _places(axes, task)
             if f"shown.{motion}" in arrays:
                 _draw(axes, arrays[f"shown.{motion}"], arrays[f"performed.{motion}"],
-                      collected.looks[condition].colour)  # fmt: skip
+                      data.looks[condition].colour)  # fmt: skip
             axes.set_aspect("equal")
             axes.tick_params(labelsize=7.5, length=2)
         row[0].set_ylabel(f"{condition}\nheight [cm]")

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motionese.analysis.cells import listed
-from motionese.analysis.collected import collect
 from motionese.analysis.effects import effects
+from motionese.analysis.experiment_data import collect
 from motionese.analysis.figures import Shown, figures
 from motionese.analysis.map_numbers import map_numbers
-from motionese.analysis.measures import Measures, measured
 from motionese.analysis.mochizuki2013 import claims, has_its_design
 from motionese.analysis.page import page
+from motionese.analysis.seed_measures import Measures, measured
 from motionese.analysis.statistics import check_seeds
 from motionese.analysis.verdicts import claims_table, judge
 from motionese.errors import RunFolderError, TooFewSeedsError
@@ -50,21 +50,21 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
         StorageError: How a run ended cannot be read.
     """
     tell = told or (lambda line: None)
-    collected = collect(run_folder)
-    ended = int((collected.runs["status"] != "unfinished").sum())
-    tell(f"{ended} of {len(collected.runs)} runs have ended")
-    study = collected.study
-    numbers = map_numbers(collected.slow_state_map, collected.development, study, collected.strokes)
-    measures = measured(collected, numbers)
+    data = collect(run_folder)
+    ended = int((data.runs["status"] != "unfinished").sum())
+    tell(f"{ended} of {len(data.runs)} runs have ended")
+    study = data.study
+    numbers = map_numbers(data.slow_state_map, data.development, study, data.strokes)
+    measures = measured(data, numbers)
     found = effects(measures, study.factors)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
     tables = {
-        "loops": collected.loops,
-        "development": collected.development,
-        **collected.novel,
-        "slow_state_map": collected.slow_state_map,
+        "loops": data.loops,
+        "development": data.development,
+        **data.novel,
+        "slow_state_map": data.slow_state_map,
         "map_numbers": numbers,
-        "runs": collected.runs,
+        "runs": data.runs,
         "effects": found,
         **({"claims": claims_table(results)} if results else {}),
     }
@@ -73,13 +73,13 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
             text = table.to_csv(index=False, lineterminator="\n")
             write_whole(run_folder / f"{name}.csv", text)
         drawn = []
-        for each in figures(collected, measures):
+        for each in figures(data, measures):
             tell(f"figure {each.name}")
             _write_figure(run_folder / "figures", each)
             drawn.append(each)
-        too_few = _too_few(measures, list(collected.looks))
+        too_few = _too_few(measures, list(data.looks))
         path = run_folder / REPORT
-        write_whole(path, page(collected, measures, numbers, found, results, drawn, too_few))
+        write_whole(path, page(data, measures, numbers, found, results, drawn, too_few))
     except OSError as error:
         raise RunFolderError(
             f"{error.filename or run_folder} cannot be written: {error.strerror}"

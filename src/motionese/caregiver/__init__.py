@@ -1,14 +1,14 @@
 """The caregiver: how sequences of primitives are shown."""
 
 from motionese.caregiver.demonstration import Caregiver, Demonstration
-from motionese.caregiver.recorded import (
+from motionese.caregiver.recorded_caregiver import (
     DEMONSTRATIONS,
     Recorded,
     RecordedCaregiver,
     read_recorded,
     recording_of,
 )
-from motionese.caregiver.scripted import Manner, ScriptedCaregiver
+from motionese.caregiver.scripted_caregiver import Manner, ScriptedCaregiver
 from motionese.caregiver.segmentation import (
     evenly_along,
     intended_way,

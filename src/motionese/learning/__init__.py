@@ -1,8 +1,8 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
 from motionese.learning.fit import Fit
+from motionese.learning.generation.chain import generate_sequence
 from motionese.learning.generation.generate import activity, generate, placed
-from motionese.learning.generation.sequence import generate_sequence
 from motionese.learning.memory import Memory
 from motionese.learning.model_recordings import read_for
 from motionese.learning.motions.batch import Batch

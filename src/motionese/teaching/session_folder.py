@@ -20,7 +20,7 @@ from motionese.caregiver import (
     recording_of,
     sequence_in,
 )
-from motionese.caregiver.recorded import UNREAD
+from motionese.caregiver.recorded_caregiver import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole
 from motionese.imitation import (

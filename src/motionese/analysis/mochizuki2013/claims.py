@@ -7,7 +7,7 @@ import pandas as pd
 
 from motionese.analysis.cells import listed
 from motionese.analysis.map_numbers import NOTHING
-from motionese.analysis.measures import Measures
+from motionese.analysis.seed_measures import Measures
 from motionese.analysis.statistics import estimate
 from motionese.analysis.verdicts import Claim, Part, judge_alone
 

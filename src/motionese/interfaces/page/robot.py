@@ -11,7 +11,7 @@ from numpy import ndarray
 from motionese.body import Geometry
 from motionese.errors import MotioneseError, TaskError
 from motionese.experiment import read_settings
-from motionese.experiment.robot import robot_of
+from motionese.experiment.learned_robot import robot_of
 from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
 from motionese.interfaces.page.descriptions import frames_message

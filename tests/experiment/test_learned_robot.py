@@ -5,7 +5,7 @@ import pytest
 
 from motionese.errors import RunFolderError
 from motionese.experiment import condition_named, go_through
-from motionese.experiment.robot import robot_of
+from motionese.experiment.learned_robot import robot_of
 from motionese.experiment.run_folder import open_run_folder
 from motionese.imitation import read_learner
 

@@ -42,7 +42,7 @@ def leading_columns(study: Study) -> dict[str, list[str]]:
 
 
 @dataclass(frozen=True)
-class Collected:
+class ExperimentData:
     """All ended runs of a folder.
 
     Rows are in the order of conditions, seeds, and then as the run wrote them, so that the same
@@ -109,7 +109,7 @@ class Collected:
         return read_inside(path) if path.is_file() else None
 
 
-def collect(folder: Path) -> Collected:
+def collect(folder: Path) -> ExperimentData:
     """Read a run folder.
 
     Raises:
@@ -131,7 +131,7 @@ def collect(folder: Path) -> Collected:
     tables = {name: _together(name, columns[name], ended) for name in columns}
     novel = {name: tables.pop(name) for name in facts.study.task.task().novel}
     how = pd.DataFrame([_how_it_ended(run, end) for run, end in runs])
-    return Collected(folder=folder, runs=how, facts=facts, novel=novel, **tables)
+    return ExperimentData(folder=folder, runs=how, facts=facts, novel=novel, **tables)
 
 
 def _runs(folder: Path, study: Study) -> list[Run]:

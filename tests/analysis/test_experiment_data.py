@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from invented_runs import CONDITIONS, STUDY, condition, without_map, write_end, write_settings
 
-from motionese.analysis.collected import collect, leading_columns
+from motionese.analysis.experiment_data import collect, leading_columns
 from motionese.analysis.facts import flat, read_facts
 from motionese.errors import RunFolderError, StorageError
 

@@ -17,7 +17,7 @@ from numpy import ndarray
 
 from motionese.body import SimulatedRobot
 from motionese.caregiver.demonstration import Caregiver, Demonstration
-from motionese.caregiver.scripted import Manner
+from motionese.caregiver.scripted_caregiver import Manner
 from motionese.caregiver.segmentation import segmented, sequence_in
 from motionese.caregiver.tempo import lasting, moving
 from motionese.errors import RecordingError, TaskError, unknown

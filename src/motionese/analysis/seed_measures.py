@@ -6,7 +6,7 @@ from typing import Literal
 
 import pandas as pd
 
-from motionese.analysis.collected import Collected
+from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import level_names
 from motionese.task import Outcome
 
@@ -43,25 +43,25 @@ class Measures:
         return self.error_at_end[max(self.error_at_end)]
 
 
-def measured(collected: Collected, numbers: pd.DataFrame) -> Measures:
+def measured(data: ExperimentData, numbers: pd.DataFrame) -> Measures:
     """Return the measures.
 
     Args:
-        collected: The runs.
+        data: The runs.
         numbers: A row per condition and seed on its map.
     """
-    names = [condition.name for condition in collected.study.conditions]
-    loops, new = collected.loops, collected.new_sequences
+    names = [condition.name for condition in data.study.conditions]
+    loops, new = data.loops, data.new_sequences
     trained = new["trained"].astype(bool)
-    below, _ = level_names(collected.study)
+    below, _ = level_names(data.study)
     kept = numbers.assign(part=1 - numbers[f"share_{below}_2"])
-    stages = range(1, len(collected.study.stages) + 1)
+    stages = range(1, len(data.study.stages) + 1)
     at_end = last_loops(loops)
     return Measures(
         error_at_end={n: error_at_end(loops, n).reindex(columns=names) for n in stages},
         achieved={
             outcome.title: achieved(at_end, outcome).reindex(columns=names)
-            for outcome in collected.task.outcomes
+            for outcome in data.task.outcomes
         },
         trained_error=_by_seed(new[trained], "imitation_error_cm").reindex(columns=names),
         untrained_error=_by_seed(new[~trained], "imitation_error_cm").reindex(columns=names),
