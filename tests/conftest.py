@@ -1,6 +1,7 @@
 """What all tests share: one thread, fast compilation, checked shapes, fixed examples."""
 
 import os
+from pathlib import Path
 
 from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
@@ -15,7 +16,16 @@ import jax  # noqa: E402
 import jaxtyping  # noqa: E402
 import pytest  # noqa: E402
 
-# The tests compile far longer than they compute. Commands they start compile as users' do.
+from motionese.one_core import cache_folder  # noqa: E402
+
+# The tests compile far longer than they compute, so what is compiled is kept and little optimised,
+# here and in the commands that they start.
+COMPILED = Path(__file__).parent.parent / "build" / "tests" / cache_folder().name
+COMPILED.mkdir(parents=True, exist_ok=True)
+os.environ["JAX_COMPILATION_CACHE_DIR"] = str(COMPILED)
+os.environ["JAX_DISABLE_MOST_OPTIMIZATIONS"] = "true"
+jax.config.update("jax_compilation_cache_dir", str(COMPILED))
+jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
 jax.config.update("jax_disable_most_optimizations", True)
 
 settings.register_profile(

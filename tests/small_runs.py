@@ -5,14 +5,11 @@ import io
 import json
 from pathlib import Path
 
-import jax
 import numpy as np
 import pytest
 import safetensors
-from jax.experimental.compilation_cache.compilation_cache import reset_cache
 
 from motionese.experiment import Run, condition_named, go_through, read_settings
-from motionese.one_core import one_core
 
 SMALL = (
     "stages.0.until.loops=1",
@@ -27,23 +24,12 @@ SMALL = (
 
 
 @pytest.fixture(scope="session")
-def compiled(tmp_path_factory):
-    """Let this process and those it starts keep what they compile, in one folder of the session."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "compiled"))
-        jax.config.update("jax_compilation_cache_dir", one_core()["JAX_COMPILATION_CACHE_DIR"])
-        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.1)
-        reset_cache()
-        yield
-
-
-@pytest.fixture(scope="session")
 def small_settings():
     return read_settings(overrides=SMALL, quick=True)
 
 
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory, small_settings, compiled):
+def undisturbed(tmp_path_factory, small_settings):
     """All that a run of TD/MD with seed 5 leaves on disk."""
     run = Run(
         condition_named("TD/MD", small_settings.factors), 5, tmp_path_factory.mktemp("undisturbed")

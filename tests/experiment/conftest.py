@@ -1,5 +1,5 @@
 """A small run that nothing disturbed, to compare others with."""
 
-from small_runs import compiled, small_settings, undisturbed
+from small_runs import small_settings, undisturbed
 
-__all__ = ["compiled", "small_settings", "undisturbed"]
+__all__ = ["small_settings", "undisturbed"]

@@ -11,7 +11,7 @@ from motionese.imitation import read_learner
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory, small_settings, compiled):
+def folder(tmp_path_factory, small_settings):
     """A run folder with two runs that have gone through a loop."""
     path = tmp_path_factory.mktemp("runs")
 

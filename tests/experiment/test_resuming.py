@@ -88,7 +88,7 @@ def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
     ],
 )
 def test_a_checkpoint_of_another_run_or_other_settings_is_refused(
-    tmp_path, small_settings, compiled, name, seed, overrides, told
+    tmp_path, small_settings, name, seed, overrides, told
 ):
     stopped_after(Run(TD_MD, 5, tmp_path), small_settings, 1)
     settings = read_settings(overrides=[*SMALL, *overrides], quick=True)
@@ -99,7 +99,7 @@ def test_a_checkpoint_of_another_run_or_other_settings_is_refused(
     assert told in str(error.value)
 
 
-def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_settings, compiled):
+def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_settings):
     run = Run(TD_MD, 5, tmp_path)
     stopped_after(run, small_settings, 1)
     path = tmp_path / "loop-01.safetensors"
@@ -116,9 +116,7 @@ def test_an_ending_that_is_none_is_refused(tmp_path, content):
 
 
 @pytest.mark.slow
-def test_recorded_demonstrations_stand_in_for_the_scripted_caregiver(
-    tmp_path, small_settings, compiled
-):
+def test_recorded_demonstrations_stand_in_for_the_scripted_caregiver(tmp_path, small_settings):
     manner = small_settings.caregiver.model_copy(update={"variability_mm": 0.0})
     body = open_body(small_settings.body, PUSHING_BUTTONS)
     scripted, rng = ScriptedCaregiver(PUSHING_BUTTONS, manner, body), np.random.default_rng(0)

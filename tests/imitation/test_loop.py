@@ -302,3 +302,15 @@ def test_map_of_a_network_without_slow_level_is_empty(scene):
     )
     assert not has_map(scene, one_unit)
     assert map_slow_states(scene, Learner(one_unit)) == []
+
+
+def test_a_robot_that_predicts_variances_learns_them_and_grows(tmp_path):
+    scene = scene_of("training.error=gaussian", "training.learned=weights,variance,initial_states")
+    before = learner_of(scene).grown(scene.settings.network, key_for(3, "network"))
+    after, rows, _, status = loop_of(scene, before)
+    assert not status.failed and len(rows) == len(PAIRS)
+    read_out = [learner.network.variance_weights for learner in (before, after)]
+    assert read_out[0].shape == read_out[1].shape and (read_out[0] != read_out[1]).any()
+    write_learner(tmp_path / "robot.safetensors", after, 5.0, {})
+    robot = runtime.load(tmp_path / "robot.safetensors")
+    assert len(robot.channels) == len(scene.body.channels)

@@ -7,17 +7,17 @@ import sys
 from pathlib import Path
 
 import pytest
-from small_runs import compiled, small_settings, undisturbed
+from small_runs import small_settings, undisturbed
 from typed import SMALL, typed, write_csv
 
 from motionese.interfaces.commands.command_line import main
 
-__all__ = ["compiled", "small_settings", "undisturbed"]
+__all__ = ["small_settings", "undisturbed"]
 COMMAND = str(Path(sys.executable).with_name("motionese"))
 
 
 @pytest.fixture
-def begin(tmp_path, compiled):
+def begin(tmp_path):
     """Begin a command in an empty folder and a group of its own; returns the process."""
 
     def begun(*arguments: str) -> "subprocess.Popen[str]":
@@ -57,7 +57,7 @@ def here(tmp_path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def trained(tmp_path_factory, compiled) -> Path:
+def trained(tmp_path_factory) -> Path:
     """A folder with recordings of an arm, a model of them, and initial states it recognised."""
     folder = tmp_path_factory.mktemp("trained")
     with pytest.MonkeyPatch.context() as patch:

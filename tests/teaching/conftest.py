@@ -2,17 +2,17 @@
 
 import pytest
 from drawn import points_of, view
-from small_runs import compiled, small_settings
+from small_runs import small_settings
 
 from motionese.imitation import Scene, newborn
 from motionese.teaching.drawing import Drawing, at_tempo
 from motionese.teaching.session import Teaching
 
-__all__ = ["compiled", "small_settings"]
+__all__ = ["small_settings"]
 
 
 @pytest.fixture(scope="session")
-def scene(small_settings, compiled):
+def scene(small_settings):
     return Scene(small_settings, seed=0)
 
 

@@ -258,7 +258,7 @@ def test_a_new_robot_leaves_the_old_one_in_a_subfolder(teaching, draw, tmp_path)
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("preset", "name"), [("shapes", "T ◝◡"), ("desk_arm", "UR ↓↑")])
-def test_any_task_and_any_robot_can_be_taught(preset, name, compiled):
+def test_any_task_and_any_robot_can_be_taught(preset, name):
     small = ("training.epochs=5", "recognition.iterations=5")
     scene = Scene(read_settings(preset, small, quick=True), 0)
     teaching = Teaching(scene, newborn(scene, 2))

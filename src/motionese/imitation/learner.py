@@ -26,6 +26,7 @@ from motionese.learning import (
     train,
     write_fit,
 )
+from motionese.learning.error import ERRORS
 from motionese.network import MTRNN, grow
 from motionese.task import PrimitiveSequence, common_beginning
 
@@ -201,7 +202,10 @@ class Learner:
 
 
 def newborn(scene: Scene, levels: int) -> Learner:
-    """Draw the network of a scene's seed, with so many levels; it has done nothing yet."""
+    """Draw the network of a scene's seed, with so many levels; it has done nothing yet.
+
+    It predicts variances where it is to be trained by an error that needs them.
+    """
     settings, channels = scene.settings.network, scene.body.channels
     network = MTRNN.draw(
         settings.drawn_levels(channels)[:levels],
@@ -211,6 +215,7 @@ def newborn(scene: Scene, levels: int) -> Learner:
         learned_bias=settings.learned_bias,
         initial_io=settings.initial_io,
         channels=channels,
+        variance=ERRORS[scene.settings.training.error].variance,
     )
     return Learner(network)
 

@@ -70,6 +70,7 @@ def test_ctrl_c_stops_it_while_it_starts_its_workers(begin):
 def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(
     begin, here, undisturbed, monkeypatch
 ):
+    monkeypatch.delenv("JAX_COMPILATION_CACHE_DIR")
     monkeypatch.setenv("XDG_CACHE_HOME", str(here / "cache"))
     moments = random.Random(0)
     for _ in range(4):

@@ -57,7 +57,7 @@ def test_a_plain_installation_has_all_commands_for_csv_npz_and_eipl(arm):
 
 
 @pytest.mark.slow
-def test_a_plain_installation_trains_recognises_and_generates(arm, compiled):
+def test_a_plain_installation_trains_recognises_and_generates(arm):
     status, output, errors = run_without(
         EXTRAS,
         [

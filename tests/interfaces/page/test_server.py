@@ -15,7 +15,7 @@ from motionese.teaching.session_folder import SessionFolder
 
 
 @pytest.fixture(scope="module")
-def session(tmp_path_factory, small_settings, compiled):
+def session(tmp_path_factory, small_settings):
     """The folder of a session whose robot knows nothing and learns in a moment."""
     folder, scene = SessionFolder(tmp_path_factory.mktemp("session")), Scene(small_settings, 0)
     folder.begin("fresh", scene)

@@ -19,7 +19,7 @@ from motionese.teaching.session_folder import SessionFolder
 
 
 @pytest.fixture
-def session(tmp_path, small_settings, compiled):
+def session(tmp_path, small_settings):
     folder, scene = SessionFolder(tmp_path / "session"), Scene(small_settings, 0)
     folder.begin("fresh", scene)
     return folder.path
