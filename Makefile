@@ -16,10 +16,10 @@ reproduce:
 	@$(BIN)/motionese reproduce --seeds $(SEEDS) --out $(OUT)
 
 test: $(TOOLS) lint
-	@$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m "not slow" --cov --cov-report=term
+	@$(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder -m "not slow" --cov --cov-report=term
 
 test-all: $(TOOLS) lint
-	@$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder --cov --cov-report=term
+	@$(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder --cov --cov-report=term
 
 lint: $(TOOLS)
 	@$(BIN)/ruff check .

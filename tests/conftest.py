@@ -38,6 +38,14 @@ settings.register_profile(
 settings.load_profile("motionese")
 
 
+def pytest_collection_modifyitems(items):
+    """Keep a file's tests on one worker, and a folder's where they share what is dear to make."""
+    for item in items:
+        folder = item.path.parent
+        shared = folder if folder.name in ("experiment", "page") else item.path
+        item.add_marker(pytest.mark.xdist_group(str(shared.relative_to(Path(__file__).parent))))
+
+
 @pytest.fixture
 def float64():
     """Let jax compute in double precision, as the twins by hand do."""

@@ -144,7 +144,7 @@ def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
     assert "undecided with 0 seeds" in page.text and "TND/MND (1" not in page.text
 
 
-def test_one_seed(tmp_path, make_run, unrendered):
+def test_one_seed_and_again_the_same_bytes(tmp_path, make_run, unrendered):
     make_run(tmp_path, TD_MD, 7)
     make_run(tmp_path, TND_MD, 7)
     report = write_report(tmp_path)
@@ -157,6 +157,11 @@ def test_one_seed(tmp_path, make_run, unrendered):
     claims = pd.read_csv(tmp_path / "claims.csv")
     assert set(claims["verdict"]) == {"undecided with 0 seeds", "undecided with 1 seed"}
     assert claims["p"].isna().all()
+    first = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    write_report(tmp_path)
+    second = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    assert first.keys() == second.keys()
+    assert [path for path in first if first[path] != second[path]] == []
 
 
 def test_nothing_but_a_diverged_run(tmp_path, make_run):
@@ -167,6 +172,8 @@ def test_nothing_but_a_diverged_run(tmp_path, make_run):
     assert "No run was evaluated on new sequences" in page.text
     assert "No run that ended has a slow level" in page.text
     assert "Nothing was kept of a performance" in page.text
+    make_run(tmp_path, TD_MD, 1, end="diverged")
+    assert write_report(tmp_path).runs == 2
 
 
 def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
@@ -191,23 +198,6 @@ def test_one_stage_is_all(tmp_path, make_run, unrendered):
 
 def test_verdicts_on_several_parts_are_explained(whole):
     assert "divided by the number of parts (Bonferroni)" in whole[3].text
-
-
-def test_written_anew_or_at_once_the_same_runs_give_the_same_bytes(tmp_path, make_run, unrendered):
-    anew, at_once = tmp_path / "anew" / "mine", tmp_path / "at once" / "mine"
-    make_run(anew, TD_MD, 0)
-    write_report(anew)
-    make_run(anew, TD_MD, 1)
-    assert write_report(anew).runs == 2
-    for seed in range(2):
-        make_run(at_once, TD_MD, seed)
-    write_report(at_once)
-    first, second = (
-        {path.relative_to(root): path.read_bytes() for path in root.rglob("*") if path.is_file()}
-        for root in (anew, at_once)
-    )
-    assert first.keys() == second.keys()
-    assert [path for path in first if first[path] != second[path]] == []
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path, make_run, monkeypatch):

@@ -305,7 +305,7 @@ def test_map_of_a_network_without_slow_level_is_empty(scene):
 
 
 def test_a_robot_that_predicts_variances_learns_them_and_grows(tmp_path):
-    scene = scene_of("training.error=gaussian", "training.learned=weights,variance,initial_states")
+    scene = scene_of("training.error=gaussian")
     before = learner_of(scene).grown(scene.settings.network, key_for(3, "network"))
     after, rows, _, status = loop_of(scene, before)
     assert not status.failed and len(rows) == len(PAIRS)

@@ -37,11 +37,11 @@ def noisy():
     rng, t = np.random.default_rng(0), np.linspace(0.0, 3.0, 30)
     path = np.stack([np.sin(t), np.cos(t)], 1)
     deviation = np.stack([0.02 * 10 ** (t / 3), np.full(30, 0.1)], 1)
-    shown = [path + deviation * rng.standard_normal(path.shape) for _ in range(40)]
+    shown = [path + deviation * rng.standard_normal(path.shape) for _ in range(24)]
     channels = Channels([Channel("x", "", -2.0, 2.0), Channel("y", "", -2.0, 2.0)])
     motions = Motions.from_arrays(shown, channels, 10.0)
     net = MTRNN.draw([Level(2, 2.0), Level(20, 4.0)], key=jax.random.key(0), variance=True)
-    chosen = Training(epochs=1500, error="gaussian", bound=0.0, weight_rate=0.02)
+    chosen = Training(epochs=1000, error="gaussian", bound=0.0, weight_rate=0.02)
     return train(net, motions, settings=chosen), motions, deviation
 
 
