@@ -3,11 +3,13 @@
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 from invented_runs import STUDY, inside_arrays
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from motionese.analysis.curves import along_stages
 from motionese.analysis.film import film, moments
 from motionese.analysis.inside import principal_plane
 from motionese.analysis.style import looks_of
@@ -101,3 +103,19 @@ def test_a_film_without_gl_is_drawn_and_says_so(unrendered):
     assert note.startswith("Drawn from the side") and "no GL" in note
     titles = [axes.get_title() for axes in figure.axes]
     assert any("pressed 9.0 mm" in title for title in titles)
+
+
+def test_stages_begin_together_where_learning_settled_at_different_times():
+    runs = {0: [1, 1, 1, 2, 2], 1: [1, 2, 2, 2]}
+    loops = pd.DataFrame(
+        [
+            {"condition": "TD/MD", "seed": seed, "loop": loop, "phase": phase}
+            for seed, phases in runs.items()
+            for loop, phase in enumerate(phases, 1)
+        ]
+    )
+    together = along_stages(loops)
+    assert together[together["seed"] == 0]["loop"].tolist() == [1, 2, 3, 4, 5]
+    assert together[together["seed"] == 1]["loop"].tolist() == [1, 4, 5, 6]
+    alike = loops[loops["seed"] == 0]
+    pd.testing.assert_frame_equal(along_stages(alike), alike)

@@ -1,12 +1,13 @@
 """The whole report on invented runs: complete, self-contained, the same every time."""
 
+import json
 import re
 import shutil
 from html.parser import HTMLParser
 
 import pandas as pd
 import pytest
-from invented_runs import STUDY, condition, without_map, without_stage_2, write_settings
+from invented_runs import STUDY, condition, without_map, without_stage_2, write_end, write_settings
 
 from motionese.analysis import write_report
 from motionese.errors import RenderingError, RunFolderError
@@ -114,6 +115,7 @@ def test_names_on_the_page_are_unique_and_links_lead_somewhere(whole):
 
 def test_the_page_tells_what_was_computed(whole):
     text = whole[3].text
+    assert "Runs took different numbers of loops" not in text
     assert "When do clear primitives emerge" in text
     assert "yes in TD/MD (1.00); no in TD/MND" in text
     assert "best of all: holds" in text
@@ -194,6 +196,19 @@ def test_one_stage_is_all(tmp_path, make_run, unrendered):
     text = report.path.read_text()
     assert "end of stage 1" in text and "end of stage 2" not in text
     assert "The paper’s claims" not in text and "What was learned of pushing two buttons?" in text
+
+
+def test_stages_that_ended_after_different_numbers_of_loops(tmp_path, make_run, unrendered):
+    for seed in range(2):
+        table = make_run(tmp_path, TD_MD, seed) / "loops.csv"
+    loops = pd.read_csv(table)
+    ended = loops.loc[loops["phase"] == 1, "loop"].max()
+    shorter = loops[loops["loop"] != ended].assign(loop=lambda t: t["loop"] - (t["loop"] > ended))
+    shorter.to_csv(table, index=False)
+    rows = json.loads((table.parent / "ended.json").read_text())["rows"]
+    write_end(table.parent, {"rows": rows | {"loops.csv": len(shorter)}})
+    page = Page(write_report(tmp_path).path.read_text())
+    assert "Runs took different numbers of loops" in page.text
 
 
 def test_verdicts_on_several_parts_are_explained(whole):

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from motionese.analysis.seed_measures import achieved
 from motionese.analysis.statistics import estimate
@@ -26,10 +26,24 @@ Looks = Mapping[str, Look]
 """The conditions that are drawn, in order, and how."""
 
 
+def along_stages(loops: pd.DataFrame) -> pd.DataFrame:
+    """Return the loops renumbered so that a stage begins in the same one in all runs.
+
+    Where stages end after a number of loops that is where it began. Where they end when learning
+    has settled, it is one after the longest run of the stage before.
+    """
+    first = loops.groupby(["condition", "seed", "phase"])["loop"].transform("min")
+    within = loops["loop"] - first + 1
+    lengths = within.groupby(loops["phase"]).max()
+    before = lengths.cumsum() - lengths
+    return loops.assign(loop=within + loops["phase"].map(before))
+
+
 def course(loops: pd.DataFrame, condition: str, column: str) -> pd.DataFrame:
     """Return the median over seeds of each loop's mean over motions, with its 95 % interval."""
     own = loops[loops["condition"] == condition]
     by_loop = own.groupby(["loop", "seed"])[column].mean().unstack("seed")
+    by_loop = by_loop.reindex(range(1, by_loop.index.max() + 1))
     estimates = [estimate(row) for row in by_loop.to_numpy(dtype=np.float64)]
     rows = [(e.value, e.low, e.high) for e in estimates]
     return pd.DataFrame(rows, index=by_loop.index, columns=["value", "low", "high"])
@@ -88,7 +102,7 @@ def success(loops: pd.DataFrame, looks: Looks, outcomes: Sequence[Outcome]) -> F
     for axes, outcome in zip(panels, outcomes, strict=True):
         by_loop = achieved(loops, outcome, index=("loop",)) * (100 if outcome.of else 1)
         for condition, look in looks.items():
-            values = by_loop[condition].dropna()
+            values = by_loop[condition].reindex(range(1, by_loop.index.max() + 1))
             axes.plot(values.index, values, **look.curve(), markevery=EVERY, label=condition)
         unit = "%" if outcome.of else outcome.unit
         axes.set(xlabel="imitation loop", ylabel=f"{outcome.title} [{unit}]")
@@ -108,15 +122,15 @@ def _draw_course(axes: Axes, curve: pd.DataFrame, condition: str, look: Look) ->
 
 
 def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
-    """Mark where stages begin, if they begin in the same loop in all runs."""
+    """Mark where stages begin."""
     last = loops["loop"].max()
     axes.set_xlim(0.5, last + 0.5)
-    begins = loops.groupby(["condition", "seed", "phase"])["loop"].min().groupby("phase")
-    stages = begins.agg(["min", "max"])
-    if len(stages) < 2 or (stages["min"] != stages["max"]).any():
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    begins = loops.groupby("phase")["loop"].min()
+    if len(begins) < 2:
         return
-    edges = [*stages["min"], last + 1]
-    for stage, begin, end in zip(stages.index, edges, edges[1:], strict=False):
+    edges = [*begins, last + 1]
+    for stage, begin, end in zip(begins.index, edges, edges[1:], strict=False):
         if begin > 1:
             axes.axvline(begin - 0.5, color=FAINT, linewidth=1.0)
         if named:

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib import rc_context
 from numpy import ndarray
 
-from motionese.analysis.curves import error_sources, learning_curves, success
+from motionese.analysis.curves import along_stages, error_sources, learning_curves, success
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.film import film
 from motionese.analysis.inside import Performed, inside
@@ -49,7 +49,7 @@ def figures(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
 
 
 def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
-    loops, looks = data.loops, data.looks
+    loops, looks = along_stages(data.loops), data.looks
     converged = CONVERGED_CM if has_its_design(data.study) else None
     stages = (
         " Upright lines are changes of stage: what is taught changes, or a level of the network "
@@ -57,6 +57,11 @@ def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
         if len(data.study.stages) > 1
         else ""
     )
+    if not loops["loop"].equals(data.loops["loop"]):
+        stages += (
+            " Runs took different numbers of loops over a stage: each stage begins after the "
+            "longest run of the one before, and its last loops are those of the slowest runs alone."
+        )
     yield Sketch(
         "learning_curves",
         "learning",

@@ -50,7 +50,11 @@ def summary(folder: Path, study: Study) -> Table:
     novel = {name: folder / f"{name}.csv" for name in task.novel}
     tables = {name: pd.read_csv(path) for name, path in novel.items() if path.is_file()}
     stages = range(1, len(study.stages) + 1)
-    columns = ("loop 1", *(f"stage {n}" for n in stages), *(f"new {name}" for name in tables))
+    columns = (
+        "loop 1",
+        *(f"stage {n}" for n in stages),
+        *(f"new {name.removeprefix('new_')}" for name in tables),
+    )
     outcome = task.outcomes[0]
     table = Table("condition", "seeds", *columns, f"{outcome.title}, last loop")
     table.title = (
