@@ -169,6 +169,19 @@ def test_every_motion_of_a_loop_counts():
     assert error_at_end(table, 1)["TD/MD"].to_list() == [3.0]
 
 
+def test_a_short_stage_is_not_mixed_with_the_one_before():
+    rows = zip((1, 2, 3, 4), (1, 1, 1, 2), (8.0, 6.0, 4.0, 1.0), strict=True)
+    table = pd.DataFrame(
+        [
+            {"condition": "TD/MD", "seed": 0, "loop": loop, "phase": phase,
+             "imitation_error_cm": error}
+            for loop, phase, error in rows
+        ]
+    )  # fmt: skip
+    assert error_at_end(table, 1)["TD/MD"].to_list() == [6.0]
+    assert error_at_end(table, 2)["TD/MD"].to_list() == [1.0]
+
+
 def test_typical_seed_is_the_median_one():
     assert typical_seed(pd.Series({7: 3.0, 8: 1.0, 9: 2.0})) == 9
     assert typical_seed(pd.Series({7: 3.0, 8: 1.0, 9: 2.0, 10: np.nan, 11: 9.0})) == 9

@@ -76,12 +76,12 @@ def measured(data: ExperimentData, numbers: pd.DataFrame) -> Measures:
 def last_loops(loops: pd.DataFrame, stage: int | None = None) -> pd.DataFrame:
     """Return the rows of each run's last loops up to the end of a stage, or of the last one.
 
-    A run that diverged before keeps its last loops: to leave it out would make its condition look
-    better than it is.
+    A stage that was shorter than that has none of the stage before. A run that diverged before
+    keeps its last loops: to leave it out would make its condition look better than it is.
     """
     early = loops if stage is None else loops[loops["phase"] <= stage]
-    last = early.groupby(["condition", "seed"])["loop"].transform("max")
-    return early[early["loop"] > last - LAST_LOOPS]
+    last = early.groupby(["condition", "seed"])[["loop", "phase"]].transform("max")
+    return early[(early["loop"] > last["loop"] - LAST_LOOPS) & (early["phase"] == last["phase"])]
 
 
 def error_at_end(loops: pd.DataFrame, stage: int) -> pd.DataFrame:
