@@ -26,11 +26,12 @@ def from_unit(values: ndarray, low: ndarray, span: ndarray) -> ndarray:
 
 
 def sigmoid(u: ndarray, out: ndarray | None = None) -> ndarray:
-    """Equation (2), written into `out` if given; by tanh, which cannot overflow as exp(−u) does."""
-    y = np.multiply(u, 0.5, out=out)
-    np.tanh(y, out=y)
-    np.multiply(y, 0.5, out=y)
-    return np.asarray(np.add(y, 0.5, out=y))
+    """Equation (2): y = 1 / (1 + e^−u), written into `out` if given."""
+    y = np.negative(u, out=out)
+    with np.errstate(over="ignore"):  # of a potential far below 0, whose y is 0
+        np.exp(y, out=y)
+    np.add(y, 1, out=y)
+    return np.asarray(np.divide(1, y, out=y))
 
 
 def logit(y: ndarray) -> ndarray:

@@ -14,7 +14,7 @@ from motionese.caregiver import Demonstration
 from motionese.imitation.settings import Acting
 from motionese.minimum_jerk import minimum_jerk
 from motionese.network import MTRNN, rollout
-from motionese.unit_interval import INNER_HIGH, INNER_LOW
+from motionese.unit_interval import INNER_HIGH, INNER_LOW, logit, sigmoid
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Performance:
     @property
     def activity(self) -> Float[ndarray, "T N"]:
         """The output y of every unit while it was performed."""
-        return np.asarray(1 / (1 + np.exp(-self.potentials)))
+        return sigmoid(self.potentials)
 
 
 def watch(body: SimulatedRobot, demonstration: Demonstration, rng: np.random.Generator) -> Watched:
@@ -108,14 +108,14 @@ def perform(
     now = record.latest(acting.efference_copy, np.full(len(body.channels), 0.5))
     state = np.array(initial_state)
     if network.initial_io == "sensed":
-        state[: len(now)] = np.log(now / (1 - now))
+        state[: len(now)] = logit(now)
     record.think(body.channels.from_unit(now), state)
     share = 1.0
     for _ in range(steps - 1):
         state = np.asarray(
             _advance(network, jnp.asarray(state), jnp.asarray(now), jnp.asarray(share))
         )
-        predicted = 1 / (1 + np.exp(-state[: len(now)]))
+        predicted = sigmoid(state[: len(now)])
         prediction = body.channels.from_unit(predicted)
         record.think(prediction, state)
         command = prediction[list(record.joints)]
