@@ -18,15 +18,15 @@ import pytest  # noqa: E402
 
 from motionese.one_core import cache_folder  # noqa: E402
 
-# The tests compile far longer than they compute, so what is compiled is kept and little optimised,
-# here and in the commands that they start.
+# What is compiled is kept, here and by the commands that the tests start.
 COMPILED = Path(__file__).parent.parent / "build" / "tests" / cache_folder().name
 COMPILED.mkdir(parents=True, exist_ok=True)
 os.environ["JAX_COMPILATION_CACHE_DIR"] = str(COMPILED)
-os.environ["JAX_DISABLE_MOST_OPTIMIZATIONS"] = "true"
 jax.config.update("jax_compilation_cache_dir", str(COMPILED))
 jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-jax.config.update("jax_disable_most_optimizations", True)
+
+COMPILING = ("analysis", "contracts", "learning", "network", "runtime")
+"""Folders whose tests compile far longer than they compute: little is optimised there."""
 
 settings.register_profile(
     "motionese",
@@ -44,6 +44,14 @@ def pytest_collection_modifyitems(items):
         folder = item.path.parent
         shared = folder if folder.name in ("experiment", "page") else item.path
         item.add_marker(pytest.mark.xdist_group(str(shared.relative_to(Path(__file__).parent))))
+
+
+@pytest.fixture(autouse=True, scope="module")
+def little_optimised(request):
+    """Compile as fast as can be where that is what takes the time."""
+    jax.config.update("jax_disable_most_optimizations", request.path.parent.name in COMPILING)
+    yield
+    jax.config.update("jax_disable_most_optimizations", False)
 
 
 @pytest.fixture

@@ -23,8 +23,8 @@ FLAGS = (
     *("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"),
 )
 COMMAND = str(Path(sys.executable).with_name("motionese"))
-ENVIRONMENT = {n: v for n, v in os.environ.items() if n != "JAX_DISABLE_MOST_OPTIMIZATIONS"}
-"""As it is before any test changes it. A robot on the page learns for longer than it compiles."""
+ENVIRONMENT = dict(os.environ)
+"""As it is before any test changes it."""
 TRAINING = """
 import os, sys
 from pathlib import Path
