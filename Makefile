@@ -5,6 +5,7 @@ BIN := $(VENV)/bin
 SEEDS ?= 3
 OUT ?= runs/default
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+PYTEST := $(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder --cov --cov-report=term
 READY := $(VENV)/.ready
 TOOLS := $(VENV)/.tools
 
@@ -16,10 +17,10 @@ reproduce:
 	@$(BIN)/motionese reproduce --seeds $(SEEDS) --out $(OUT)
 
 test: $(TOOLS) lint
-	@$(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder -m "not slow" --cov --cov-report=term
+	@$(PYTEST) -m "not slow"
 
 test-all: $(TOOLS) lint
-	@$(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder --cov --cov-report=term
+	@$(PYTEST)
 
 lint: $(TOOLS)
 	@$(BIN)/ruff check .

@@ -1,4 +1,4 @@
-"""What all tests share: one thread, fast compilation, checked shapes, fixed examples."""
+"""What all tests share: one thread, kept compilation, checked array shapes, fixed examples."""
 
 import os
 from pathlib import Path

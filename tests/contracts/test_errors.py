@@ -10,7 +10,7 @@ from ragged_motions import ragged, small_network
 
 from motionese.learning.error import ERRORS
 from motionese.learning.objective import predictions
-from motionese.learning.parameters import PARAMETERS, Parameters
+from motionese.learning.parameters import PARAMETERS, Parameters, learned_by
 
 
 @pytest.fixture(params=ERRORS)
@@ -103,5 +103,7 @@ def test_free_values_of_a_parameter_give_it_back_and_touch_no_other(name):
 
 
 def test_a_network_without_a_bias_or_a_variance_has_none_to_learn():
-    network = replace(small_network(), learned_bias=False)
-    assert not PARAMETERS["bias"].present(network)
+    network = small_network()
+    without = replace(network, learned_bias=False, variance_weights=None, variance_bias=None)
+    assert learned_by(network, tuple(PARAMETERS)) == tuple(PARAMETERS)
+    assert set(PARAMETERS) - set(learned_by(without, tuple(PARAMETERS))) == {"bias", "variance"}

@@ -53,7 +53,7 @@ def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | Non
     """Draw the imitation error over the loops, one curve a condition.
 
     Args:
-        loops: A row per condition, seed, loop and motion.
+        loops: A row per condition, seed, loop and motion, see `along_stages`.
         looks: The conditions.
         converged_cm: From which error on a run counts as converged, if there is such a bound.
     """
@@ -122,7 +122,7 @@ def _draw_course(axes: Axes, curve: pd.DataFrame, condition: str, look: Look) ->
 
 
 def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
-    """Mark where stages begin."""
+    """Mark where stages begin, in loops as `along_stages` gives them."""
     last = loops["loop"].max()
     axes.set_xlim(0.5, last + 0.5)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))

@@ -29,6 +29,7 @@ WHOLE_HISTORY_S, TRAINING_HISTORY_S = 1e9, 60.0
 """How far back the time left is told from. Loops come in bursts, with compilation between them:
 only the whole history gives a rate."""
 
+# Not `Self`, which the tests' checks of annotations refuse outside a checked class.
 Own = TypeVar("Own", bound="_Display")
 
 

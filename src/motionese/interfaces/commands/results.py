@@ -82,7 +82,7 @@ def summary(folder: Path, study: Study) -> Table:
 def _untrained(rows: "pd.DataFrame", condition: str) -> "pd.DataFrame":
     """Return the sequences of a condition that its runs were not taught."""
     own = rows[rows["condition"] == condition]
-    return own[~own["trained"].astype(bool)] if "trained" in own else own
+    return own[~own["trained"].astype(bool)]
 
 
 def _last_loop(rows: "pd.DataFrame") -> "pd.DataFrame":
