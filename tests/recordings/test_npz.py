@@ -1,5 +1,7 @@
 """The project's own file holds everything, to the last bit."""
 
+import gc
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -60,6 +62,13 @@ def test_a_file_that_is_cut_short_or_foreign_is_refused(recording, tmp_path):
     path.write_bytes(path.read_bytes()[:-200])
     with pytest.raises(RecordingError, match=r"out\.npz: not a whole file of motions that motione"):
         read(path)
+    path.write_bytes(b"PK\x03\x04")
+    with warnings.catch_warnings(record=True) as left_open:
+        warnings.simplefilter("always")
+        with pytest.raises(RecordingError, match=r"out\.npz: not a whole file of motions"):
+            read(path)
+        gc.collect()
+    assert not left_open
     np.savez(path, joints=np.eye(3))
     with pytest.raises(RecordingError, match=r"out\.npz: not a whole file of motions that motione"):
         read(path)

@@ -197,7 +197,8 @@ class SessionFolder:
         }
 
     def _entry(self, facts: dict[str, Any]) -> Entry:
-        with np.load(self._entry_path(facts["number"]), allow_pickle=False) as arrays:
+        path = self._entry_path(facts["number"])
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             begins = tuple(int(row) for row in arrays["begins"])
             return Entry(
                 **{**facts, "errors_cm": tuple(facts["errors_cm"])},

@@ -57,7 +57,8 @@ def read(path: Path) -> Recording:
         RecordingError: Another file, one cut short, or one of a newer format.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        # NumPy leaves open what it opened itself and could not read.
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             metadata = _metadata(path, file)
             episodes = tuple(
                 _episode(path, file, i, name, len(metadata.channels))
