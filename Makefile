@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 SEEDS ?= 3
 OUT ?= runs/default
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
-PYTEST := $(BIN)/python -m pytest -n 2 --dist loadgroup --no-loadscope-reorder --cov --cov-report=term
+PYTEST := $(BIN)/python -m pytest -n 2 --no-loadscope-reorder --cov --cov-report=term
 READY := $(VENV)/.ready
 TOOLS := $(VENV)/.tools
 

@@ -1,10 +1,11 @@
 """What all tests share: one thread, kept compilation, checked array shapes, fixed examples."""
 
 import os
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from hypothesis import HealthCheck, settings
 from jaxtyping import install_import_hook
+from xdist.scheduler import LoadScopeScheduling
 
 # Read by XLA when jax is imported, which must come after this line.
 os.environ.setdefault(
@@ -38,12 +39,17 @@ settings.register_profile(
 settings.load_profile("motionese")
 
 
-def pytest_collection_modifyitems(items):
+class ByFile(LoadScopeScheduling):
     """Keep a file's tests on one worker, and a folder's where they share what is dear to make."""
-    for item in items:
-        folder = item.path.parent
-        shared = folder if folder.name in ("experiment", "page") else item.path
-        item.add_marker(pytest.mark.xdist_group(str(shared.relative_to(Path(__file__).parent))))
+
+    def _split_scope(self, nodeid):
+        path = PurePosixPath(nodeid.partition("::")[0])
+        return str(path.parent if path.parent.name in ("experiment", "page") else path)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    return ByFile(config, log)
 
 
 @pytest.fixture(autouse=True, scope="module")
