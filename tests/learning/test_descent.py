@@ -1,20 +1,13 @@
 """Training and recognition by plain descent are what equations (3)–(5) say, worked out by hand."""
 
-from dataclasses import replace
-
-import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from by_hand import learning as by_hand
 from by_hand.network import rollout, sigmoid
+from ragged_motions import drawn, ragged
 
 from motionese import (
-    MTRNN,
-    Channel,
-    Channels,
-    Level,
-    Motions,
     Recognition,
     Training,
     generate,
@@ -23,36 +16,7 @@ from motionese import (
 from motionese.learning import activity, recognise_all
 from motionese.learning.optimisers import recognition_rule
 from motionese.learning.recognition.descent import descend
-
-SIZES = {2: (2, 5), 3: (2, 4, 2), 4: (2, 3, 2, 1)}
-CHANNELS = Channels([Channel("x", "cm", -2.0, 2.0), Channel("y", "cm", 0.0, 5.0)])
-LENGTHS = (6, 4, 7)
-
-
-def drawn(levels, **settings):
-    """A network with a bias, and the same as arrays by name."""
-    sizes = SIZES[levels]
-    net = MTRNN.draw(
-        [Level(size, tau) for size, tau in zip(sizes, (2.0, 5.0, 30.0, 70.0), strict=False)],
-        key=jax.random.key(levels),
-        channels=CHANNELS,
-        **settings,
-    )
-    net = replace(net, bias=jnp.linspace(-0.5, 0.5, net.size))
-    arrays = {name: np.asarray(getattr(net, name)) for name in ("weights", "bias", "tau")}
-    return net, {**arrays, "sizes": sizes, **settings}
-
-
-def ragged(seed=0):
-    """Motions with gaps and weights, as Motions and in the unit interval for the twin."""
-    rng = np.random.default_rng(seed)
-    values = [rng.uniform((-2.0, 0.0), (2.0, 5.0), (length, 2)) for length in LENGTHS]
-    masks = [rng.uniform(size=value.shape) < 0.7 for value in values]
-    masks[0][0] = (True, False)
-    weights = [rng.uniform(0.0, 2.0, value.shape) for value in values]
-    motions = Motions.from_arrays(values, CHANNELS, 10.0, observed=masks, weights=weights)
-    scaled = [0.1 + 0.8 * (value - (-2.0, 0.0)) / (4.0, 5.0) for value in values]
-    return motions, list(zip(scaled, masks, weights, strict=True))
+from motionese.learning.recognition.search import Search
 
 
 @pytest.mark.parametrize(
@@ -150,8 +114,9 @@ def test_what_first_comes_near_enough_is_chosen_and_stays_there(float64):
 
     rule = recognition_rule("descent", 2.0, 0.0, 10)
     bound, none = jnp.asarray(given["bound"]), jnp.asarray(0.0)
-    begin, limit = jnp.asarray(starts), jnp.asarray(enough)
-    states, by_start, chosen = descend(net, motions.batch(), begin, bound, rule, none, 10, limit)
+    units, begin, limit = jnp.arange(net.size), jnp.asarray(starts), jnp.asarray(enough)
+    search = Search(net, motions.batch(), begin, units, bound, none, limit)
+    states, by_start, chosen = descend(search, rule, 10)
 
     for i, motion in enumerate(twins):
         expected = [

@@ -16,6 +16,7 @@ from motionese.learning.error import ERRORS
 from motionese.learning.optimisers import recognition_rule, training_rule
 from motionese.learning.parameters import Parameters
 from motionese.learning.recognition.descent import descend
+from motionese.learning.recognition.search import Search
 from motionese.learning.training.epochs import Iterate, run_epochs
 
 KEY = jax.random.key(2)
@@ -223,7 +224,9 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     weights_gradient = 2 * (rows - 1) * len(motions) * units**2
     free = np.zeros((3, starts, 17), np.float32)
     rule, none = recognition_rule("adam", 0.1, 0.9, 10), np.float32(0.0)
-    paid = operations(descend, net, batch, free, bound, rule, none, 10, None)
+    enough = np.full(free.shape[:2], -np.inf, np.float32)
+    search = Search(net, batch, free, np.arange(17), bound, none, enough)
+    paid = operations(descend, search, rule, 10)
     learner, learned = (
         Parameters(net, jnp.asarray(free[:, 0])),
         ("weights", "bias", "initial_states"),

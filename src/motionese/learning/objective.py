@@ -29,14 +29,13 @@ def initial_potentials(
     return free.at[:, :io].set(jnp.where(batch.observed[:, 0] > 0, first, free[:, :io]))
 
 
-def predictions(
+def inputs(
     network: MTRNN,
     batch: Batch,
     free: Float[Array, "S N"],
-    teacher_forcing: float | Float[Array, ""],
-    noise: Float[Array, "S T N"] | None = None,
-) -> Prediction:
-    """Predict every row of the motions from the rows before it.
+    teacher_forcing: float | Float[Array, ""] = 0.0,
+) -> tuple[Float[Array, "S N"], Float[Array, "S T D"], Float[Array, "S T D"]]:
+    """Return what a rollout takes: where it starts, what is sensed, and its share of the inputs.
 
     Args:
         network: The network.
@@ -44,11 +43,20 @@ def predictions(
         free: Initial states, see `initial_potentials`.
         teacher_forcing: Share of the sensed value in the inputs, where it was observed. The first
             row's input is what was sensed in any case: it is known before the first prediction.
-        noise: Added to the potentials.
     """
     share = (batch.observed * teacher_forcing).at[:, 0].set(batch.observed[:, 0])
-    start = initial_potentials(network, batch, free)
-    return predict(network, start, batch.sensed, share, noise)
+    return initial_potentials(network, batch, free), batch.sensed, share
+
+
+def predictions(
+    network: MTRNN,
+    batch: Batch,
+    free: Float[Array, "S N"],
+    teacher_forcing: float | Float[Array, ""] = 0.0,
+    noise: Float[Array, "S T N"] | None = None,
+) -> Prediction:
+    """Predict every row of the motions from the rows before it; arguments as of `inputs`."""
+    return predict(network, *inputs(network, batch, free, teacher_forcing), noise)
 
 
 def with_shared_channels(network: MTRNN, motions: Motions) -> tuple[MTRNN, Motions]:

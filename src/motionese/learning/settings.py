@@ -89,7 +89,8 @@ class Recognition(BaseModel):
     iterations: int = Field(default=800, ge=1)
     starts: int = Field(default=3, ge=0)
     spread: float = Field(default=0.5, ge=0)
-    optimiser: Optimiser = "adam"
+    optimiser: Optimiser | Literal["least_squares"] = "adam"
+    levels: tuple[str, ...] | None = Field(default=None, min_length=1)
     rate: Rate = 0.2
     momentum: float = Field(default=0.9, ge=0, lt=1)
     bound: Bound = 100.0

@@ -3,8 +3,9 @@
 from motionese.network.growth import grow
 from motionese.network.levels import Level
 from motionese.network.mtrnn import MTRNN, InitialIO
-from motionese.network.prediction import Prediction, predict, variance_of
+from motionese.network.prediction import Prediction, predict, read_out, variance_of
 from motionese.network.rollout import rollout
+from motionese.network.sensitivity import sensitivities
 from motionese.network.step import step
 from motionese.network.storage import read_network, write_network
 from motionese.network.wiring import Scale, wiring
@@ -18,7 +19,9 @@ __all__ = [
     "grow",
     "predict",
     "read_network",
+    "read_out",
     "rollout",
+    "sensitivities",
     "step",
     "variance_of",
     "wiring",

@@ -37,7 +37,11 @@ def predict(
     noise: Float[Array, "B T N"] | None = None,
 ) -> Prediction:
     """Predict a batch of sequences; arguments as of `rollout`."""
-    potentials = rollout(network, initial, sensed, share, noise)
+    return read_out(network, rollout(network, initial, sensed, share, noise))
+
+
+def read_out(network: MTRNN, potentials: Float[Array, "*rows N"]) -> Prediction:
+    """Return what a network with these potentials predicts."""
     io = network.io_size
     variance = None
     if network.variance:

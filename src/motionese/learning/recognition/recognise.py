@@ -5,13 +5,14 @@ states at once: recalled ones of learned motions, those given, and random ones. 
 with the smallest error is kept, or that which first comes as near as motions were learned.
 """
 
+from collections.abc import Iterable
 from dataclasses import replace
 from math import isclose
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 from numpy import ndarray
 
 from motionese.channels import Channels
@@ -22,7 +23,9 @@ from motionese.learning.motions.motions import Motions
 from motionese.learning.objective import with_shared_channels
 from motionese.learning.optimisers import recognition_rule
 from motionese.learning.recognition.descent import descend
+from motionese.learning.recognition.least_squares import damped_steps
 from motionese.learning.recognition.result import RecognitionResult, judged
+from motionese.learning.recognition.search import Found, Search
 from motionese.learning.settings import Recognition
 from motionese.network import MTRNN
 
@@ -122,25 +125,16 @@ def recognise_all(
     if starts is None and recall is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     free = _starts(network, count, starts, recall, settings, key)
-    states, losses, chosen = descend(
+    search = Search(
         network,
         batch,
         free,
+        _sought(network, motions, settings),
         network.per_unit(settings.bound, jnp.inf),
-        recognition_rule(settings.optimiser, settings.rate, settings.momentum, settings.iterations),
-        jnp.asarray(settings.penalty),
-        settings.iterations,
-        _enough(memory, recall, free.shape[1]),
+        jnp.asarray(settings.penalty, free.dtype),
+        _enough(memory, recall, count, free.shape[1]),
     )
-    return judged(
-        network,
-        motions,
-        batch,
-        np.asarray(states),
-        np.asarray(losses),
-        np.asarray(chosen),
-        settings,
-    )
+    return judged(network, motions, batch, _found(search, settings), settings)
 
 
 def _parts(model: Model) -> tuple[MTRNN, Memory | None, float | None]:
@@ -151,15 +145,40 @@ def _parts(model: Model) -> tuple[MTRNN, Memory | None, float | None]:
     return network, memory, None
 
 
+def _found(search: Search, settings: Recognition) -> Found:
+    if settings.optimiser == "least_squares":
+        return damped_steps(search, settings.iterations)
+    rule = recognition_rule(
+        settings.optimiser, settings.rate, settings.momentum, settings.iterations
+    )
+    return descend(search, rule, settings.iterations)
+
+
+def _sought(network: MTRNN, motions: Motions, settings: Recognition) -> Int[Array, " K"]:
+    """Return the units whose initial states are sought: those of context levels, or of some.
+
+    And those of IO that begin at nothing sensed, in any of the motions.
+    """
+    unsensed = ~np.all([mask[0] for mask in motions.observed], axis=0)
+    io = np.flatnonzero(unsensed & (network.initial_io == "sensed"))
+    levels = network.names[1:] if settings.levels is None else settings.levels
+    return jnp.asarray(np.concatenate([io, _units(network, levels)]))
+
+
+def _units(network: MTRNN, levels: Iterable[str]) -> Int[ndarray, " K"]:
+    units = np.arange(network.size)
+    return np.concatenate([units[network.units(name)] for name in levels])
+
+
 def _enough(
-    memory: Memory | None, recall: Recall | None, starts: int
-) -> Float[Array, "S M"] | None:
+    memory: Memory | None, recall: Recall | None, count: int, starts: int
+) -> Float[Array, "S M"]:
     """Return for every start, the recalled ones first, the loss that is small enough.
 
-    None where nobody knows how well motions were learned.
+    −∞ where nobody knows how well motions were learned.
     """
     if memory is None or recall is None or np.isnan(memory.errors).all():
-        return None
+        return jnp.full((count, starts), -jnp.inf)
     others = np.repeat(recall.typical[:, None], starts - recall.enough.shape[1], axis=1)
     return jnp.asarray(np.hstack([recall.enough, others]), float)
 
@@ -182,6 +201,9 @@ def _starts(
         # One key a motion, so that a motion's starts do not depend on what is recognised with it.
         keys = jax.vmap(lambda i: jax.random.fold_in(key, i))(jnp.arange(count))
         shape = (settings.starts, network.size)
-        drawn = jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
-        parts.append(settings.spread * drawn)
+        drawn = settings.spread * jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
+        if settings.levels is not None and parts:
+            held = jnp.isin(jnp.arange(network.size), _units(network, settings.levels), invert=True)
+            drawn = jnp.where(held, parts[0][:, :1], drawn)
+        parts.append(drawn)
     return jnp.concatenate(parts, axis=1)

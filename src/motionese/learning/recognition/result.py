@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.learning.accuracy import channel_errors, predicted
 from motionese.learning.motions.batch import Batch
 from motionese.learning.motions.motions import Motions
+from motionese.learning.recognition.search import Found
 from motionese.learning.settings import Recognition
 from motionese.learning.status import Ending, Status
 from motionese.network import MTRNN
@@ -42,9 +43,7 @@ def judged(
     network: MTRNN,
     motions: Motions,
     batch: Batch,
-    states: Float[ndarray, "S N"],
-    losses: Float[ndarray, "S M"],
-    chosen: Int[ndarray, " S"],
+    found: Found,
     settings: Recognition,
 ) -> list[RecognitionResult]:
     """Judge the initial states that were found, one for every motion of a batch.
@@ -53,19 +52,18 @@ def judged(
         network: The network.
         motions: The motions that were recognised.
         batch: The same motions, perhaps with empty ones after them.
-        states: The initial states found.
-        losses: The loss of every start.
-        chosen: Which start was kept.
+        found: What the search came to.
         settings: What counts as recognised.
     """
+    states, losses, chosen = (np.asarray(part) for part in found)
     paths = predicted(network, batch, states, 0.0)
     residuals = channel_errors(paths, batch, motions.channels)
     spans = motions.channels.spans
-    found = []
+    results = []
     for i, length in enumerate(motions.lengths):
         shares = residuals[i][~np.isnan(residuals[i])] / spans[~np.isnan(residuals[i])]
         worst = float(shares.max()) if len(shares) else np.nan
-        found.append(
+        results.append(
             RecognitionResult(
                 initial_state=states[i],
                 path=motions.channels.from_unit(paths[i, :length]),
@@ -76,7 +74,7 @@ def judged(
                 status=_verdict(float(losses[i, chosen[i]]), worst, settings),
             )
         )
-    return found
+    return results
 
 
 def _verdict(loss: float, worst: float, settings: Recognition) -> Status:

@@ -1,0 +1,136 @@
+"""Recognition as a nonlinear least-squares problem: damped Gauss–Newton steps of initial states.
+
+Equation (3) is a sum of squared residuals r of a few dozen unknowns c, the free initial states.
+With their Jacobian J from one scan forward (see `network.sensitivity`), a step solves
+
+    (Jᵀ V J + p + λ) Δc = −(Jᵀ V r + p c)        (Levenberg 1944, Marquardt 1963)
+
+V being the weights of the residuals, p the penalty. A step that makes the loss smaller is taken and
+λ falls; another is not, and λ rises. Steps stay short where little is known, so that what is found
+stays near the start: near what the network has learned.
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from motionese.learning.error import error_of
+from motionese.learning.objective import inputs
+from motionese.learning.recognition.search import Found, Search
+from motionese.network import read_out, sensitivities
+
+FIRST_DAMPING = 1e-2
+"""λ of the first step, as a share of the largest diagonal element of Jᵀ V J."""
+EASED, RAISED = 0.2, 5.0
+"""λ is multiplied by the first after a step that was taken, by the second after another."""
+LARGEST_DAMPING = 1e4
+"""With a larger λ a step moves nothing any more."""
+TINY = 1e-30
+"""λ where nothing that is sought changes anything."""
+STILL = 1e-4
+"""Nothing moves any more where a step that was taken made the loss smaller by less than this."""
+
+
+class _Progress(NamedTuple):
+    """How far the searches are.
+
+    Attributes:
+        sought: The initial states that are sought. [B, K]
+        loss: Their loss. [B]
+        curvature: Jᵀ V J + p there. [B, K, K]
+        slope: Jᵀ V r + p c there. [B, K]
+        damping: λ of the next step, as a share of the largest diagonal element. [B]
+        moving: Which are not at rest yet. [B]
+        taken: Steps tried. [B]
+    """
+
+    sought: Float[Array, "B K"]
+    loss: Float[Array, " B"]
+    curvature: Float[Array, "B K K"]
+    slope: Float[Array, "B K"]
+    damping: Float[Array, " B"]
+    moving: Bool[Array, " B"]
+    taken: Int[Array, " B"]
+
+
+@eqx.filter_jit
+def damped_steps(search: Search, iterations: int) -> Found:
+    """Take damped steps from every start, so many at most, and keep the best of every motion."""
+
+    def step(now: _Progress) -> _Progress:
+        sought = _stepped(search, now)
+        loss, curvature, slope = normal_equations(search, sought)
+        moving = now.moving & search.short(now.loss)
+        better = moving & (loss < now.loss)
+        damping = now.damping * jnp.where(better, EASED, RAISED)
+        still = jnp.where(better, now.loss - loss < STILL * now.loss, damping > LARGEST_DAMPING)
+        return _Progress(
+            jnp.where(better[:, None], sought, now.sought),
+            jnp.where(better, loss, now.loss),
+            jnp.where(better[:, None, None], curvature, now.curvature),
+            jnp.where(better[:, None], slope, now.slope),
+            damping,
+            moving & ~still,
+            now.taken + moving,
+        )
+
+    loss, curvature, slope = normal_equations(search, search.begin)
+    loss = jnp.where(jnp.isfinite(loss), loss, jnp.inf)
+    begin = _Progress(
+        search.begin,
+        loss,
+        curvature,
+        slope,
+        jnp.full_like(loss, FIRST_DAMPING),
+        jnp.ones(len(loss), bool),
+        jnp.zeros(len(loss), int),
+    )
+    end = jax.lax.while_loop(
+        lambda now: (now.taken.max() < iterations) & search.unfinished(now.loss, now.moving),
+        step,
+        begin,
+    )
+    return search.found(end.sought, end.loss, end.taken)
+
+
+def normal_equations(
+    search: Search, sought: Float[Array, "B K"]
+) -> tuple[Float[Array, " B"], Float[Array, "B K K"], Float[Array, "B K"]]:
+    """Return the loss, Jᵀ V J + p and Jᵀ V r + p c (half of the loss's gradient).
+
+    Where the network predicts variances, V are their inverses, held for the step.
+    """
+    network, batch, units = search.network, search.repeated, search.units
+    start, sensed, share = inputs(network, batch, search.states(sought))
+    potentials, jacobian = sensitivities(network, start, sensed, share, units)
+    predicted = read_out(network, potentials)
+    weight = batch.weight.at[:, 0].set(0.0)
+    if predicted.variance is not None:
+        weight = 0.5 * weight / predicted.variance
+    # An IO unit that was sensed at first starts there, whatever was sought.
+    context = units >= network.io_size
+    at_first = batch.observed[:, 0, jnp.where(context, 0, units)] > 0
+    jacobian = jnp.where((~context & at_first)[:, None, :, None], 0.0, jacobian)
+    weighted = jacobian * weight[:, :, None]
+    prior = search.penalty * context
+    curvature = jnp.einsum("btkd,btld->bkl", weighted, jacobian) + jnp.diag(prior)
+    slope = jnp.einsum("btkd,btd->bk", weighted, predicted.mean - sensed) + prior * sought
+    return error_of(network)(predicted, batch) + search.prior(sought), curvature, slope
+
+
+def _stepped(search: Search, now: _Progress) -> Float[Array, "B K"]:
+    """Return where a damped step leads; what is at its bound and pushed beyond stays there."""
+    limit = search.limit
+    free = (jnp.abs(now.sought) < limit) | (now.sought * now.slope > 0)
+    diagonal = jnp.diagonal(now.curvature, axis1=1, axis2=2).max(1)
+    damping = jnp.maximum(now.damping * diagonal, TINY)
+    damped = (
+        now.curvature * (free[:, :, None] & free[:, None])
+        + jnp.eye(len(limit)) * damping[:, None, None]
+    )
+    slope = jnp.where(free, now.slope, 0.0)
+    change = jax.vmap(lambda a, b: jax.scipy.linalg.solve(a, b, assume_a="pos"))(damped, slope)
+    return jnp.clip(now.sought - change, -limit, limit)
