@@ -13,13 +13,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from motionese.caregiver import (
-    DEMONSTRATIONS,
-    Demonstration,
-    moving,
-    recording_of,
-    sequence_in,
-)
+from motionese.caregiver import DEMONSTRATIONS, Demonstration, moving, recording_of, sequence_in
 from motionese.caregiver.recorded_caregiver import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole

@@ -11,11 +11,7 @@ from typing import Annotated
 
 import typer
 
-from motionese.interfaces.commands import (
-    experiment_commands,
-    model_commands,
-    recording_commands,
-)
+from motionese.interfaces.commands import experiment_commands, model_commands, recording_commands
 
 app = typer.Typer(
     help="Developmental imitation learning: the experiment, and your own robot's recordings.",

@@ -36,8 +36,7 @@ def train(
     out: Annotated[Path, typer.Option(metavar="MODEL.safetensors", help="The file to write.")],
     reading: dict[str, Any],
     levels: Annotated[
-        str,
-        typer.Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps."),
+        str, typer.Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps.")
     ] = "40:5,8:70",
     io_tau: Annotated[
         float, typer.Option(metavar="TAU", help="τ of the IO level, in steps.")

@@ -82,11 +82,7 @@ def _recorded(caregiver: str, scene: Scene) -> Recorded | None:
 
 
 def _go_through(
-    runs: Sequence[Run],
-    settings: Study,
-    workers: int,
-    shown: Recorded | None,
-    console: Console,
+    runs: Sequence[Run], settings: Study, workers: int, shown: Recorded | None, console: Console
 ) -> list[str]:
     left = [run for run in runs if not run.ended()]
     loops = settings.most_loops()

@@ -71,10 +71,7 @@ def summary(folder: Path, study: Study) -> Table:
         errors += [_centimetres(_last_loop(own[own["phase"] == n])) for n in stages]
         errors += [_centimetres(_untrained(t, condition.name)) for t in tables.values()]
         table.add_row(
-            condition.name,
-            str(own["seed"].nunique()),
-            *errors,
-            _achieved(_last_loop(own), outcome),
+            condition.name, str(own["seed"].nunique()), *errors, _achieved(_last_loop(own), outcome)
         )
     return table
 

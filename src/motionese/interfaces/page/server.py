@@ -20,14 +20,7 @@ MOST_CONNECTIONS = 64
 
 
 def teach(
-    console: Console,
-    *,
-    begin: str,
-    session: Path,
-    host: str,
-    port: int,
-    token: str,
-    browser: bool,
+    console: Console, *, begin: str, session: Path, host: str, port: int, token: str, browser: bool
 ) -> None:
     """Serve the page on which a person teaches the robot, until Ctrl-C.
 
