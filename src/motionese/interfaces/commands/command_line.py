@@ -10,6 +10,7 @@ from importlib import metadata
 from typing import Annotated
 
 import typer
+from typer import Option
 
 from motionese.interfaces.commands import experiment_commands, model_commands, recording_commands
 
@@ -56,7 +57,7 @@ def _show_version(asked: bool) -> bool:
 def _root(
     version: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--version", callback=_show_version, is_eager=True, help="Show the version and leave."
         ),
     ] = False,
@@ -64,6 +65,9 @@ def _root(
     """Take what stands before a command."""
 
 
-experiment_commands.add_to(app)
-recording_commands.add_to(app)
-model_commands.add_to(app)
+for panel, commands in {
+    "The experiment": experiment_commands.COMMANDS,
+    "Your own robot": recording_commands.COMMANDS | model_commands.COMMANDS,
+}.items():
+    for name, command in commands.items():
+        app.command(name, rich_help_panel=panel)(command)

@@ -80,9 +80,8 @@ class Display(_Display):
     def loop_done(self, run: "Run", loop: int) -> None:
         """Show a run's last whole loop; its row appears with the first one that is told."""
         if run.name not in self._rows:
-            self._rows[run.name] = self._bars.add_task(
-                run.name, total=self._loops, told_from=math.inf
-            )
+            row = self._bars.add_task(run.name, total=self._loops, told_from=math.inf)
+            self._rows[run.name] = row
         doing = run.name if loop < self._loops else f"{run.name}, evaluation"
         self._bars.update(self._rows[run.name], completed=loop, description=doing)
         self._advance(run, loop)
@@ -150,11 +149,7 @@ class TrainingDisplay(_Display):
             parts.append(f"held out {progress.validation_error:.1%}")
         told = f"{', '.join(parts)} of range"
         self._bars.update(self._task, completed=progress.epoch, description=told)
-        left = self._bars.tasks[0].time_remaining
-        self._say(
-            [
-                f"{progress.epoch} of {self._epochs} epochs",
-                *(told, f"about {left:.0f} s left" if left else ""),
-            ],
-            after_s=TRAINING_LINE_EVERY_S,
-        )
+        seconds = self._bars.tasks[0].time_remaining
+        left = f"about {seconds:.0f} s left" if seconds else ""
+        epochs = f"{progress.epoch} of {self._epochs} epochs"
+        self._say([epochs, told, left], after_s=TRAINING_LINE_EVERY_S)

@@ -12,7 +12,7 @@ from motionese.interfaces.commands.initial_states import read_initial_states
 from motionese.interfaces.commands.motion_figure import write_figure
 from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_output
 from motionese.interfaces.commands.summaries import reach
-from motionese.learning import Fit, Motions, generate_sequence, load
+from motionese.learning import Motions, generate_sequence, load
 
 
 def generate_motion(
@@ -56,7 +56,13 @@ def generate_motion(
         raise SettingError(
             f"say what to generate: --like EPISODE, one of {', '.join(known)}; or --initial FILE"
         )
-    states, rows, names = _chosen(fit, known, like, steps, duration)
+    for name in like:
+        if name not in known:
+            raise SettingError(f"--like {name}: {unknown('motion', name, known)}")
+    taken = list(like) or list(known)
+    names = " + ".join(taken)
+    states = [known[name][0] for name in taken]
+    rows = [steps or max(round((known[name][1] - 1) * duration) + 1, 2) for name in taken]
     if start:
         _check_start(fit.network.channels, start)
     path = generate_sequence(
@@ -86,20 +92,3 @@ def _check_start(channels: Channels, start: Mapping[str, float]) -> None:
                 f"--start {channel.name}={value:g}: where the robot is must lie within the model's "
                 f"reach, {lowest:.4g} to {highest:.4g}{f' {channel.unit}' * bool(channel.unit)}"
             )
-
-
-def _chosen(
-    fit: Fit,
-    known: Mapping[str, tuple[np.ndarray, int]],
-    like: Sequence[str],
-    steps: int | None,
-    duration: float,
-) -> tuple[list[np.ndarray], list[int], str]:
-    """Return initial states and rows of the motions asked for, and what to call them."""
-    for name in like:
-        if name not in known:
-            raise SettingError(f"--like {name}: {unknown('motion', name, known)}")
-    names = list(like) or list(known)
-    states = [known[name][0] for name in names]
-    rows = [steps or max(round((known[name][1] - 1) * duration) + 1, 2) for name in names]
-    return states, rows, " + ".join(names)

@@ -61,10 +61,9 @@ def recognise_motions(
         write_initial_states(initial, fit.network, states, rows)
         console.print(f"Initial states: {initial}")
     if out is not None:
-        paths = Motions.from_arrays(
-            [f.path for f in found], fit.network.channels, fit.rate_hz, names=motions.names
-        )
-        paths.write(out)
+        paths = [f.path for f in found]
+        channels, rate_hz = fit.network.channels, fit.rate_hz
+        Motions.from_arrays(paths, channels, rate_hz, names=motions.names).write(out)
         console.print(f"Recognised motions: {out}")
 
 
@@ -84,13 +83,9 @@ def _recognised(
 ) -> list[RecognitionResult]:
     """Recognise motions one by one, padded to one length so that they share compiled code."""
     keys, size = jax.random.split(key, len(motions)), (1, max(motions.lengths))
-    shown = track(
-        list(zip(motions, keys, strict=True)),
-        "Recognising",
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
+    each = list(zip(motions, keys, strict=True))
+    off = not console.is_terminal
+    shown = track(each, "Recognising", console=console, transient=True, disable=off)
     return [recognise_all(fit, one, key=its, padded_to=size)[0] for one, its in shown]
 
 

@@ -1,6 +1,7 @@
 """Recordings in, a trained model out."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -52,7 +53,7 @@ def train_model(
         seed: Of the initial weights, the held-out motions and the state noise.
         resume: Whether to go on with a training that was stopped.
         settings: How to train.
-        logs: Kinds of logs, see `logs.open_logs`.
+        logs: Kinds of logs, see `open_logs`.
         reading: How, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
@@ -122,11 +123,8 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
     Raises:
         SettingError: A setting that does not exist, or a value that is not allowed.
     """
-    given: dict[str, Any] = {
-        name: value
-        for name, value in (("epochs", epochs), ("patience", patience))
-        if value is not None
-    }
+    own = {"epochs": epochs, "patience": patience}
+    given: dict[str, Any] = {name: value for name, value in own.items() if value is not None}
     for text in overrides:
         name, _, told = text.partition("=")
         if name not in Training.model_fields:
@@ -147,12 +145,10 @@ def read_held_out(text: str | None, motions: Motions) -> float | list[str] | Non
     """Return the share or the names that a text is; below 1 a number is always a share."""
     if text is None:
         return None
-    try:
+    with suppress(ValueError):
         share = float(text)
-    except ValueError:
-        share = None
-    if share is not None and (0 <= share < 1 or text not in motions.names):
-        return share
+        if 0 <= share < 1 or text not in motions.names:
+            return share
     return [name.strip() for name in text.split(",")]
 
 
