@@ -1,6 +1,6 @@
 """The notebook: everything shown so far, how well it was imitated, and what was learned of it."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from jaxtyping import Float
@@ -55,7 +55,7 @@ class Notebook:
 
     entries: tuple[Entry, ...] = ()
     learned: tuple[Learning, ...] = ()
-    next: int = field(default=1)
+    next: int = 1
 
     def entry(self, number: int) -> Entry | None:
         """Return the entry of a number, or None if there is none (any more)."""

@@ -154,7 +154,8 @@ class Teaching:
         name = sequence.name if sequence else f"{start_of(path, task).start} ?"
         entry = Entry(notebook.next, name, source, path if drawn is None else drawn, demonstration)
         observed = Observation(entry, watched, interpretation, verdict)
-        self._change(notebook=notebook.with_entry(entry), observed=observed)
+        notebook = notebook.with_entry(entry)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return observed
 
     def imitate(self) -> Trial:
@@ -163,9 +164,9 @@ class Teaching:
         trial = self._trial(observed.watched, observed.interpretation)
         entry = self.notebook.entry(observed.entry.number) or observed.entry
         entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
-        self._change(
-            notebook=self.notebook.with_entry(entry), observed=replace(observed, entry=entry)
-        )
+        observed = replace(observed, entry=entry)
+        notebook = self.notebook.with_entry(entry)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return trial
 
     def learn(self, report: Report) -> Change:
@@ -215,7 +216,8 @@ class Teaching:
         observed = self.observed
         if observed is not None and observed.entry.number == number:
             observed = None
-        self._change(notebook=self.notebook.without(number), observed=observed)
+        notebook = self.notebook.without(number)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         if not places:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
@@ -261,23 +263,20 @@ class Teaching:
         state = self.recogniser.at_the_end(watched, so_far).state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
 
-    def _change(self, *, notebook: Notebook, observed: Observation | None) -> None:
-        self.standing = replace(self.standing, notebook=notebook, observed=observed)
-
     def _become(self, learner: Learner) -> None:
         self.numbers += 1
         self.return_to(replace(self.standing, learner=learner, number=self.numbers))
 
     def _note(self, learning: Learning) -> None:
         notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
-        self._change(notebook=notebook, observed=self.observed)
+        self.standing = replace(self.standing, notebook=notebook)
 
     def _look_again(self) -> None:
         """Recognise what was shown last with the network as it is now."""
         if (observed := self.observed) is not None:
             interpretation = self.recogniser.at_the_end(observed.watched)
             observed = replace(observed, interpretation=interpretation)
-            self._change(notebook=self.notebook, observed=observed)
+            self.standing = replace(self.standing, observed=observed)
 
     def _observed(self) -> Observation:
         assert self.observed is not None, "something must be shown before it is imitated"

@@ -163,15 +163,11 @@ class SessionFolder:
         return read_learner(self._learner_path(number))[0]
 
     def _facts(self, teaching: Teaching) -> dict[str, Any]:
-        entries = [
-            {
-                "number": entry.number,
-                "motion": entry.motion,
-                "source": entry.source,
-                "errors_cm": entry.errors_cm,
-            }
-            for entry in teaching.notebook.entries
-        ]
+        names = ("number", "motion", "source", "errors_cm")
+        entries = [{n: getattr(entry, n) for n in names} for entry in teaching.notebook.entries]
+        settings = teaching.scene.settings.model_dump(
+            mode="json", include=set(Settings.model_fields)
+        )
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -183,11 +179,7 @@ class SessionFolder:
             "next": teaching.notebook.next,
             "entries": entries,
             "learned": [asdict(each) for each in teaching.notebook.learned],
-            "settings": {
-                name: value
-                for name, value in teaching.scene.settings.model_dump(mode="json").items()
-                if name in Settings.model_fields
-            },
+            "settings": settings,
         }
 
     def _entry(self, facts: dict[str, Any]) -> Entry:

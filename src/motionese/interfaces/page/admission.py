@@ -90,23 +90,21 @@ class Admission:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
             return False
-        if name in LOCAL or name == self.host:
-            return True
-        try:
-            ipaddress.ip_address(name)
-        except ValueError:
-            return False
-        return not is_local(self.host)
+        others_come = not is_local(self.host)
+        return name in (*LOCAL, self.host) or (others_come and _address(name) is not None)
 
 
 def is_local(host: str) -> bool:
     """Whether an address can be reached from this machine alone."""
-    if host == "localhost":
-        return True
+    address = _address(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
     try:
-        return ipaddress.ip_address(host).is_loopback
+        return ipaddress.ip_address(host)
     except ValueError:
-        return False
+        return None
 
 
 class Gate:

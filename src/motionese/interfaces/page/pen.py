@@ -28,7 +28,7 @@ class Pen:
         """Draw in a view, for a robot; `tell` gets what it understands."""
         self._teaching, self._view, self._tell = teaching, view, tell
         self._drawing: Drawing | None = None
-        self._source: Source = "drawn"
+        self.source: Source = "drawn"
         self._new, self._told_at = False, 0.0
         self._name = ""
         self.understood: Interpretation | None = None
@@ -38,14 +38,9 @@ class Pen:
         """Whether something is being drawn."""
         return self._drawing is not None
 
-    @property
-    def source(self) -> Source:
-        """Who draws."""
-        return self._source
-
     def set_down(self, source: Source) -> None:
         """Begin a drawing."""
-        self._drawing, self._source = Drawing(), source
+        self._drawing, self.source = Drawing(), source
         self.begin()
 
     def begin(self) -> None:
