@@ -59,11 +59,7 @@ class Change:
 class Standing:
     """Where a session stands; it can be returned to.
 
-    Attributes:
-        learner: What the robot has become.
-        number: The learner's number; no two learners of a session have the same.
-        notebook: What it was shown.
-        observed: What it was shown last, if anything.
+    No two learners of a session have the same number; `observed` is what was shown last.
     """
 
     learner: Learner
@@ -140,7 +136,6 @@ class Teaching:
 
         Args:
             path: The hand's path [m, world] at the robot's tempo.
-            source: Who shows it.
             drawn: The hand's path as it was drawn in time, where that differs.
             before: What was understood while it was drawn.
         """

@@ -55,14 +55,7 @@ def verdict_on(
     task: Task,
     known: Iterable[str],
 ) -> Verdict:
-    """Return the verdict on what was watched.
-
-    Args:
-        shown: The path of the shown hand [m, world].
-        understood: The hand's path as it was recognised [m, world].
-        task: The task.
-        known: Names of the motions that were learned.
-    """
+    """Return the verdict on a shown and an understood path [m, world]; `known` names motions."""
     recognised, drawn = (sequence_in(path, task) for path in (understood, shown))
     candidates = _candidates(known, (recognised, drawn), task)
     sure = dict(zip(candidates, confidence(candidates, shown, understood, task), strict=True))

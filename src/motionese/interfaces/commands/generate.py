@@ -30,8 +30,6 @@ def generate_motion(
     """Generate one motion, or several in sequence, and write it.
 
     Args:
-        console: Where it is told.
-        model: The model's file.
         like: Names of learned motions; or, with `initial`, of motions in that file.
         initial: A file of initial states, as `recognise` writes them.
         steps: Rows of every motion; as many as it had, times the duration, for None.

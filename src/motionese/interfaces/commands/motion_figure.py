@@ -38,10 +38,8 @@ def write_figure(
     Args:
         path: The file to write; PNG if it ends so, else SVG.
         paths: The motions; NaN where nothing was observed. [T_i, D]
-        names: Their names.
         channels: Name and unit of every channel.
         rate_hz: Rows per second [Hz]; rows are counted where it is None.
-        title: What is drawn.
 
     Raises:
         StorageError: A file that cannot be written.

@@ -34,14 +34,10 @@ def recognise_motions(
     """Recognise every motion of a recording, and tell how well each was recognised.
 
     Args:
-        console: Where it is told.
-        model: The model's file.
-        source: The recording.
         observed: Names or patterns of the channels that are looked at; all for None.
         out: Where to write the recognised motions, all channels; nowhere for None.
         initial: Where to write the initial states (.json); nowhere for None.
-        seed: Of the random starts.
-        reading: How, as `Motions.read` takes it.
+        reading: How `source` is read, as `Motions.read` takes it.
     """
     if initial is not None:
         check_output("--initial", initial, (".json",))

@@ -44,17 +44,12 @@ def train_model(
     Everything is checked before anything is written.
 
     Args:
-        console: Where it is told.
-        source: The recordings.
-        out: The model's file.
         levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first.
         io_tau: Time constant of the IO level [steps].
         held_out: A share of the motions or their names, as in '0.2' or 'wave,lift'; see `split`.
         seed: Of the initial weights, the held-out motions and the state noise.
-        resume: Whether to go on with a training that was stopped.
-        settings: How to train.
         logs: Kinds of logs, see `open_logs`.
-        reading: How, as `Motions.read` takes it.
+        reading: How `source` is read, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
     context = read_levels(levels)
@@ -96,10 +91,7 @@ def train_model(
 
 
 def read_levels(levels: str | Sequence[tuple[int, float]]) -> list[Level]:
-    """Return the context levels that a text such as `40:5,8:70` or pairs (size, τ) stand for.
-
-    Args:
-        levels: Size and time constant [steps] of every context level, from the fast one upwards.
+    """Return the context levels that `40:5,8:70` or pairs (size, τ [steps]) stand for, fast first.
 
     Raises:
         SettingError: The text is not of that form, or a level cannot have such a size or τ.

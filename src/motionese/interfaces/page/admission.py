@@ -72,10 +72,9 @@ class Admission:
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._known_host(host):
             return "this name is not one of the server's"
-        if origin is None:
-            if socket:
-                return "a connection must tell its origin"
-        elif origin not in (f"http://{host}", f"https://{host}"):
+        if origin is None and socket:
+            return "a connection must tell its origin"
+        if origin is not None and origin not in (f"http://{host}", f"https://{host}"):
             return "pages of other sites are not let in"
         if self.token and not hmac.compare_digest(token.encode(), self.token.encode()):
             return "the token is missing or wrong: open the address that the command printed"

@@ -37,7 +37,7 @@ def open_session(folder: SessionFolder, begin: str) -> Teaching:
     """Return the session of a folder, or one that begins there.
 
     Args:
-        folder: The folder.
+        folder: Where it is kept.
         begin: "babbling", "fresh" or the path of a run; empty for what is there, or babbling.
 
     Raises:
