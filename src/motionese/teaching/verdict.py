@@ -19,6 +19,7 @@ from numpy import ndarray
 
 from motionese.caregiver import evenly_along, intended_way, sequence_in
 from motionese.errors import TaskError
+from motionese.imitation import path_error_cm
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.recogniser import start_of
 
@@ -66,7 +67,7 @@ def verdict_on(
         shown=drawn,
         confidence=how_sure,
         alternatives=tuple((other, sure[other]) for other in others[:ALTERNATIVES]),
-        error_cm=float(100 * np.linalg.norm(understood - shown, axis=1).mean()),
+        error_cm=path_error_cm(understood, shown),
         sentence=_sentence(task, shown, recognised, drawn, how_sure),
     )
 

@@ -5,7 +5,7 @@ complaints come at once.
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import metadata
 from typing import Annotated
 
@@ -21,6 +21,22 @@ app = typer.Typer(
     # The tables of locals in Typer's own tracebacks hide the line that matters.
     pretty_exceptions_enable=False,
 )
+PANELS: dict[str, dict[str, Callable[..., None]]] = {
+    "The experiment": {
+        "reproduce": experiment_commands.reproduce,
+        "report": experiment_commands.report,
+        "presets": experiment_commands.presets,
+        "teach": experiment_commands.teach,
+    },
+    "Your own robot": {
+        "import": recording_commands.import_recordings,
+        "inspect": recording_commands.inspect,
+        "export": recording_commands.export,
+        "train": model_commands.train,
+        "recognise": model_commands.recognise,
+        "generate": model_commands.generate,
+    },
+}
 SEVERAL = (
     *("--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
     *("--observed", "--log", "--like", "--start"),
@@ -65,9 +81,6 @@ def _root(
     """Take what stands before a command."""
 
 
-for panel, commands in {
-    "The experiment": experiment_commands.COMMANDS,
-    "Your own robot": recording_commands.COMMANDS | model_commands.COMMANDS,
-}.items():
+for panel, commands in PANELS.items():
     for name, command in commands.items():
         app.command(name, rich_help_panel=panel)(command)

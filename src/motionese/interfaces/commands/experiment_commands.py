@@ -11,7 +11,7 @@ from typer import Argument, Option
 
 from motionese.errors import SettingError, needs, unknown
 from motionese.interfaces.commands.exit_status import WRONG, plainly
-from motionese.interfaces.commands.recording_options import Command, Texts
+from motionese.interfaces.commands.recording_options import Texts
 
 EXPERIMENT = ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas", "scipy")
 MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn", "websockets")}
@@ -133,14 +133,6 @@ def teach(
             token=token,
             browser=not no_browser,
         )
-
-
-COMMANDS: dict[str, Command] = {
-    "reproduce": reproduce,
-    "report": report,
-    "presets": presets,
-    "teach": teach,
-}
 
 
 def _check_extra(command: str, extra: str = "experiment") -> None:

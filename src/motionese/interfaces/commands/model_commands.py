@@ -10,7 +10,6 @@ from typer import Argument, Option
 
 from motionese.interfaces.commands.exit_status import plainly
 from motionese.interfaces.commands.recording_options import (
-    Command,
     Texts,
     as_read,
     read_values,
@@ -150,9 +149,6 @@ def generate(
             blend=blend,
             out=out,
         )
-
-
-COMMANDS: dict[str, Command] = {"train": train, "recognise": recognise, "generate": generate}
 
 
 def checkpoint_of(model: Path) -> Path:

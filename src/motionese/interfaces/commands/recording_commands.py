@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from typer import Argument, Option
 
 from motionese.interfaces.commands.exit_status import plainly
-from motionese.interfaces.commands.recording_options import Command, as_read, with_recording_options
+from motionese.interfaces.commands.recording_options import FORMATS, as_read, with_recording_options
 
 Source = Annotated[Path, Argument(metavar="SOURCE", help="A file or folder of recordings.")]
 
@@ -56,11 +56,7 @@ def export(
         Path | None, Option(metavar="PATH", help="The file or folder to write data to.")
     ] = None,
     to: Annotated[
-        str | None,
-        Option(
-            metavar="csv|npz|eipl|robomimic|lerobot|mcap",
-            help="As what; else by the suffix of PATH.",
-        ),
+        str | None, Option(metavar=FORMATS, help="As what; else by the suffix of PATH.")
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""
@@ -74,6 +70,3 @@ def export(
             export_motions(console, source, out, to)
         else:
             raise SettingError("say what to write: --onnx FILE for a model, or --out PATH for data")
-
-
-COMMANDS: dict[str, Command] = {"import": import_recordings, "inspect": inspect, "export": export}

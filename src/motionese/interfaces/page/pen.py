@@ -8,6 +8,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.caregiver import Demonstration, sequence_in
+from motionese.imitation import path_error_cm
 from motionese.interfaces.page.descriptions import listed
 from motionese.interfaces.page.messages import Answer
 from motionese.teaching.drawing import Drawing, DrawingError, at_tempo
@@ -83,7 +84,7 @@ class Pen:
         if understood is None:
             return
         self.understood = understood
-        apart = 100 * float(np.linalg.norm(understood.path - watched.path, axis=1).mean())
+        apart = path_error_cm(understood.path, watched.path)
         # In the middle of a primitive a path is no sequence: what was completed before stands.
         task = teaching.scene.task
         sequence = sequence_in(understood.path, task)

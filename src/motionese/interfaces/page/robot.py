@@ -14,7 +14,6 @@ from motionese.experiment import read_settings
 from motionese.experiment.learned_robot import robot_of
 from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
-from motionese.interfaces.page.descriptions import frames_message
 from motionese.interfaces.page.messages import Answer
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
@@ -211,7 +210,7 @@ class Robot:
         self._save()
         network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
         played = film(self._geometry, network, trial.performance, rate_hz)
-        yield from frames_message(played, self._tell)
+        yield from descriptions.frames_message(played, self._tell)
         path = self._view.of_points(trial.performance.path)
         self._tell(descriptions.performed_message(entry, trial, path))
 
