@@ -72,7 +72,6 @@ class Teaching:
     """One session; its methods may take a second, and are stopped by what `report` raises.
 
     Attributes:
-        scene: The robot.
         standing: Where the session stands.
         numbers: How many learners were numbered so far.
         recogniser: Recognises with what the robot knows now.
@@ -251,11 +250,9 @@ class Teaching:
 
     def warm_up(self) -> None:
         """Let everything be compiled that a drawing asks for, by what nobody sees."""
-        sequence = self.scene.task.sequences(1)[0]
-        rng = generator_for(0, "warming")
+        sequence, rng = self.scene.task.sequences(1)[0], generator_for(0, "warming")
         watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
-        so_far = self.recogniser.so_far(watched, None)
-        state = self.recogniser.at_the_end(watched, so_far).state
+        state = self.recogniser.at_the_end(watched, self.recogniser.so_far(watched, None)).state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
 
     def _become(self, learner: Learner) -> None:

@@ -43,7 +43,6 @@ class SessionFolder:
     """Where a session is kept.
 
     Attributes:
-        path: The folder.
         id: A name of the session that no other has.
         began: What its robot began from.
     """

@@ -11,6 +11,7 @@ Distances compare ways, not times: both paths are followed evenly along their le
 """
 
 from collections.abc import Collection, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -93,11 +94,9 @@ def _candidates(
 ) -> list[PrimitiveSequence]:
     sequences = [s for length in (1, 2, 3) for s in task.sequences(length)]
     for name in known:
-        try:
+        with suppress(TaskError):  # babbling, and what a person taught that is no sequence
             sequences.append(task.sequence(name))
-        except TaskError:  # babbling, and what a person taught that is no sequence of the task
-            continue
-    return list(dict.fromkeys([*sequences, *(sequence for sequence in read if sequence)]))
+    return list(dict.fromkeys([*sequences, *filter(None, read)]))
 
 
 def _sentence(

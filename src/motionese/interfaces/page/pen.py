@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 from jaxtyping import Float
@@ -70,11 +71,8 @@ class Pen:
         drawing = self._drawing
         if drawing is None or len(drawing) < 2:
             return
-        try:
-            path = self._shown(drawing)[0]
-        except DrawingError:
-            return
-        self.tell_understood(path, round(1000 * drawing.seconds))
+        with suppress(DrawingError):
+            self.tell_understood(self._shown(drawing)[0], round(1000 * drawing.seconds))
 
     def tell_understood(self, path: Float[ndarray, "T 3"], milliseconds: int) -> None:
         """Tell what the robot understands of a path [m, world] so far."""

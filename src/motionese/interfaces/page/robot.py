@@ -56,11 +56,7 @@ class StoppedError(Exception):
 
 
 class Robot:
-    """Does one thing after the other; what takes time is a generator that yields waiting times.
-
-    Attributes:
-        going: What is under way, or None.
-    """
+    """Does one thing after the other; `going` is what is under way and yields waiting times [s]."""
 
     def __init__(
         self,
