@@ -26,7 +26,6 @@ def practised(
     at least the latest is remembered.
 
     Args:
-        scene: Robot and settings.
         learner: What the robot is, its new experience included.
         loop: The loop that the new experience carries.
         report: Called while it learns; what it raises ends the training.

@@ -65,7 +65,6 @@ class SessionFolder:
 
         Args:
             began: "babbling", "fresh", or what the learner comes from.
-            scene: The robot and its settings.
             learner: What it is; where left out one that has babbled, or has done nothing yet.
 
         Raises:

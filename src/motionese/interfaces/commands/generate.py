@@ -27,7 +27,7 @@ def generate_motion(
     blend: int | None,
     out: Path,
 ) -> None:
-    """Generate one motion, or several in sequence, and write it.
+    """Generate one motion, or several in sequence; write it as `out`'s suffix has it.
 
     Args:
         like: Names of learned motions; or, with `initial`, of motions in that file.
@@ -36,7 +36,6 @@ def generate_motion(
         duration: How many times as long the motions last.
         start: Where the robot is, by channel, in the channels' units.
         blend: Rows of a transition between motions; found for None.
-        out: Recording or picture to write, by its suffix.
     """
     check_output("--out", out, (*RECORDINGS, *PICTURES))
     fit = load(model)

@@ -39,7 +39,6 @@ def reproduce(
         Why there was too little for a statistical test, or "".
 
     Raises:
-        MotioneseError: Anything asked for that does not exist or cannot be done.
         UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
     """
     settings = read_settings(preset, overrides, quick=quick)

@@ -88,8 +88,7 @@ def description(motions: Motions) -> str:
     rows = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
     count = f"{len(motions)} motion{'' if len(motions) == 1 else 's'}"
     width = len(motions.channels)
-    seen = sum(int(mask.sum()) for mask in motions.observed)
-    gaps, beyond = 1 - seen / (sum(motions.lengths) * width), share_beyond(motions)
+    gaps, beyond = 1 - np.concatenate(motions.observed).mean(), share_beyond(motions)
     return (
         f"{count} of {rows} rows at {motions.rate_hz:g} Hz, "
         f"{width} channel{'' if width == 1 else 's'}"

@@ -123,13 +123,12 @@ class Robot:
         try:
             return next(self.going)
         except StopIteration:
-            self._end()
+            pass
         except StoppedError:
             self._hint("Stopped: I am as I was before.")
-            self._end()
         except MotioneseError as error:
             self._hint(str(error), "error")
-            self._end()
+        self._end()
         return None
 
     def _end(self) -> None:
