@@ -30,7 +30,7 @@ class InteractiveMap:
         """Draw the map of a robot whose slow level is open (see `possible`)."""
         scene, network = teaching.scene, teaching.learner.network
         self._teaching = teaching
-        # Of every primitive, its initial state and how its first row feels to the own body.
+        # By primitive: its initial state, and a demonstration's first row as the own body senses it.
         self._origins: dict[str, tuple[Float[ndarray, " N"], Float[ndarray, " D"]]] = {}
         settings = scene.settings.evaluation
         axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
@@ -44,10 +44,7 @@ class InteractiveMap:
             first = scene.as_own(primitive.start, watched)[0]
             self._origins[primitive.name] = state, first
             self.grids[primitive.name] = [
-                {
-                    "direction": round(row["direction_1_rad"], DIGITS),
-                    "extent": round(row["extent_1_rad"], DIGITS),
-                }
+                {of: round(row[f"{of}_1_rad"], DIGITS) for of in ("direction", "extent")}
                 for row in slow_map_of(scene, network, primitive, state, first)
             ]
         slow = network.units(self.level)
