@@ -30,7 +30,7 @@ class InteractiveMap:
         """Draw the map of a robot whose slow level is open (see `possible`)."""
         scene, network = teaching.scene, teaching.learner.network
         self._teaching = teaching
-        # By primitive: its initial state, and a demonstration's first row as the own body senses it.
+        # By primitive: its initial state, and how the own body senses a demonstration's first row.
         self._origins: dict[str, tuple[Float[ndarray, " N"], Float[ndarray, " D"]]] = {}
         settings = scene.settings.evaluation
         axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
