@@ -279,10 +279,9 @@ class Teaching:
 
     def _trial(self, watched: Watched, interpretation: Interpretation) -> Trial:
         sequence = start_of(watched.path, self.scene.task)
-        done = self.scene.perform(
-            self.learner.network, interpretation.state, sequence, len(watched.path), "teaching"
-        )
-        return Trial(done, interpretation.state, path_error_cm(done.path, watched.path))
+        state, rows = interpretation.state, len(watched.path)
+        done = self.scene.perform(self.learner.network, state, sequence, rows, "teaching")
+        return Trial(done, state, path_error_cm(done.path, watched.path))
 
     def _error_of(self, entry: Entry) -> float:
         watched = self.watch(entry.demonstration)

@@ -163,9 +163,8 @@ class SessionFolder:
     def _facts(self, teaching: Teaching) -> dict[str, Any]:
         names = ("number", "motion", "source", "errors_cm")
         entries = [{n: getattr(entry, n) for n in names} for entry in teaching.notebook.entries]
-        settings = teaching.scene.settings.model_dump(
-            mode="json", include=set(Settings.model_fields)
-        )
+        own = set(Settings.model_fields)
+        settings = teaching.scene.settings.model_dump(mode="json", include=own)
         return {
             "format": FORMAT,
             "version": VERSION,

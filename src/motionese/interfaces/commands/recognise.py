@@ -97,13 +97,9 @@ def _table(
     ):
         there = mask[:, hidden]
         off = ((one.path - value) / motions.channels.spans)[:, hidden][there]
-        table.add_row(
-            name,
-            f"{one.error:.1%}",
-            f"{np.sqrt((off**2).mean()):.1%}" if len(off) else "–",
-            _nearest(fit, one),
-            one.status.ending.value,
-        )
+        missed = f"{np.sqrt((off**2).mean()):.1%}" if len(off) else "–"
+        verdict = one.status.ending.value
+        table.add_row(name, f"{one.error:.1%}", missed, _nearest(fit, one), verdict)
     return table
 
 

@@ -156,14 +156,10 @@ class Robot:
                 self._hint(hint)
 
     def _show(
-        self,
-        path: Float[ndarray, "T 3"],
-        drawn: Float[ndarray, "R 3"],
-        source: Source,
-        ended: float,
+        self, path: Float[ndarray, "T 3"], drawn: Float[ndarray, "R 3"], source: Source, end: float
     ) -> None:
         observed = self.teaching.show(path, source, drawn, self.pen.understood)
-        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - ended))
+        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - end))
         self._save()
 
     def _save(self) -> None:
