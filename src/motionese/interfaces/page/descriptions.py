@@ -1,7 +1,7 @@
 """What the page is told: the messages of the robot's process, made of what it knows."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy import ndarray
 from motionese.body import Geometry
 from motionese.caregiver import intended_way
 from motionese.imitation import Scene
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
@@ -158,7 +158,7 @@ def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -
     }
 
 
-def frames_message(played: Film, tell: Callable[[Answer], None]) -> Iterator[float]:
+def frames_message(played: Film, tell: Tell) -> Iterator[float]:
     """Send a film part by part; yields how long [s] to wait before the next."""
     size = round(PART_S * played.rate_hz)
     began = time.monotonic()

@@ -15,6 +15,7 @@ from motionese.interfaces.page.messages import (
     Pen,
     RefusedError,
     Strokes,
+    Tell,
     understood,
     worker_message,
 )
@@ -32,9 +33,7 @@ class Hub:
     """Passes messages between one page and the worker."""
 
     def __init__(
-        self,
-        supervised: Callable[[Callable[[Answer], None]], Supervisor],
-        refused: Callable[[str], None],
+        self, supervised: Callable[[Tell], Supervisor], refused: Callable[[str], None]
     ) -> None:
         """Take what makes a supervisor that tells a function; `refused` is told why none begins."""
         self._refused = refused

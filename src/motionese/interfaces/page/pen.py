@@ -1,7 +1,6 @@
 """The pen: a drawing as it comes, and what the robot understands of it meanwhile."""
 
 import time
-from collections.abc import Callable
 from contextlib import suppress
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy import ndarray
 from motionese.caregiver import Demonstration, sequence_in
 from motionese.imitation import path_error_cm
 from motionese.interfaces.page.descriptions import listed
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Tell
 from motionese.teaching.drawing import Drawing, DrawingError, at_tempo
 from motionese.teaching.notebook import Source
 from motionese.teaching.recogniser import Interpretation, start_of
@@ -26,7 +25,7 @@ EVERY_S = 0.1
 class Pen:
     """One drawing at a time."""
 
-    def __init__(self, teaching: Teaching, view: View, tell: Callable[[Answer], None]) -> None:
+    def __init__(self, teaching: Teaching, view: View, tell: Tell) -> None:
         """Draw in a view, for a robot; `tell` gets what it understands."""
         self._teaching, self._view, self._tell = teaching, view, tell
         self._drawing: Drawing | None = None

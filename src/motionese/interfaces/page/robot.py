@@ -14,7 +14,7 @@ from motionese.experiment import read_settings
 from motionese.experiment.learned_robot import robot_of
 from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Tell
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
 from motionese.teaching.drawing import DrawingError, most_rows
@@ -59,11 +59,7 @@ class Robot:
     """Does one thing after the other; `going` is what is under way and yields waiting times [s]."""
 
     def __init__(
-        self,
-        folder: SessionFolder,
-        teaching: Teaching,
-        tell: Callable[[Answer], None],
-        stop_asked: Callable[[], bool],
+        self, folder: SessionFolder, teaching: Teaching, tell: Tell, stop_asked: Callable[[], bool]
     ) -> None:
         """Serve a session; `stop_asked` says, while the network learns, whether to stop."""
         self._folder, self._tell, self._stop_asked = folder, tell, stop_asked
