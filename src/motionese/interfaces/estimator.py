@@ -1,7 +1,7 @@
 """Training, recognition and generation in scikit-learn's manner."""
 
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import jax
@@ -31,6 +31,9 @@ try:
     from sklearn.utils.validation import check_is_fitted, validate_data
 except ImportError as error:
     raise needs("scikit-learn", "sklearn", "MTRNNImitator") from error
+
+RULES = {"dtype": np.float64, "ensure_all_finite": "allow-nan", "ensure_min_samples": 2}
+"""What one motion is to scikit-learn."""
 
 
 class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
@@ -88,9 +91,8 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
         """
         values = self._checked(X, reset=True)
         names = getattr(self, "feature_names_in_", [f"x{i}" for i in range(self.n_features_in_)])
-        motions = Motions.from_arrays(
-            values, [str(n) for n in names], self.rate_hz, observed=[~np.isnan(v) for v in values]
-        )
+        seen = [~np.isnan(value) for value in values]
+        motions = Motions.from_arrays(values, [*map(str, names)], self.rate_hz, observed=seen)
         levels = [Level(len(motions.channels), self.io_tau), *read_levels(self.levels)]
         network = MTRNN.draw(levels, key=self._key())
         self.fit_: Fit = train(
@@ -104,14 +106,9 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
     def recognise(self, X: Any) -> list[RecognitionResult]:
         """Recognise every motion from what is observed in it, and tell how well that went."""
         check_is_fitted(self)
-        values = self._checked(X, reset=False)
-        looked_at = self._looked_at()
-        motions = Motions.from_arrays(
-            values,
-            self.channels_,
-            self.rate_hz,
-            observed=[~np.isnan(value) & looked_at for value in values],
-        )
+        values, looked_at = self._checked(X, reset=False), self._looked_at()
+        seen = [~np.isnan(value) & looked_at for value in values]
+        motions = Motions.from_arrays(values, self.channels_, self.rate_hz, observed=seen)
         return recognise_all(self.fit_, motions, settings=self.recognition, key=self._key())
 
     def predict(self, X: Any) -> Any:
@@ -155,16 +152,8 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
         checked = []
         for number, motion in enumerate(motions):
             try:
-                checked.append(
-                    validate_data(
-                        self,
-                        motion,
-                        reset=reset and number == 0,
-                        dtype=np.float64,
-                        ensure_all_finite="allow-nan",
-                        ensure_min_samples=2,
-                    )
-                )
+                new = reset and number == 0
+                checked.append(validate_data(self, motion, reset=new, **RULES))
             except ValueError as error:
                 if len(motions) == 1:
                     raise
@@ -172,22 +161,17 @@ class MTRNNImitator(BaseEstimator):  # type: ignore[misc]
         return checked
 
     def _looked_at(self) -> Bool[ndarray, " D"]:
-        mask = np.ones(self.n_features_in_, dtype=bool)
-        if self.observed is not None:
-            mask[:] = False
-            mask[list(self._columns(self.observed))] = True
+        if self.observed is None:
+            return np.ones(self.n_features_in_, dtype=bool)
+        mask, last = np.zeros(self.n_features_in_, dtype=bool), self.n_features_in_ - 1
+        places = [
+            self.channels_.indices([c])[0] if isinstance(c, str) else c for c in self.observed
+        ]
+        for place in places:
+            if not 0 <= place <= last:
+                raise SettingError(f"observed must name columns 0 to {last}, got {place}")
+        mask[places] = True
         return mask
-
-    def _columns(self, columns: Sequence[int] | Sequence[str]) -> Iterable[int]:
-        for column in columns:
-            if isinstance(column, str):
-                yield int(self.channels_.indices([column])[0])
-            elif 0 <= column < self.n_features_in_:
-                yield column
-            else:
-                raise SettingError(
-                    f"observed must name columns 0 to {self.n_features_in_ - 1}, got {column}"
-                )
 
     def _key(self) -> jax.Array:
         return jax.random.key(check_random_state(self.random_state).randint(2**31 - 1))

@@ -7,6 +7,7 @@ u it makes the next potentials and the next row. Fed with its own y it generates
 
 import json
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -100,24 +101,13 @@ def _model(network: MTRNN, facts: Mapping[str, Any]) -> bytes:
         from onnx import TensorProto, checker, helper
     except ImportError as error:
         raise needs("onnx", "onnx", "the export to ONNX") from error
-    vectors = {
-        name: helper.make_tensor_value_info(name, TensorProto.FLOAT, [length])
-        for name, length in (
-            ("x", network.io_size),
-            ("u", network.size),
-            ("y", network.io_size),
-            ("u_next", network.size),
-        )
-    }
+    vector = partial(helper.make_tensor_value_info, elem_type=TensorProto.FLOAT)
+    inputs = [vector("x", shape=[network.io_size]), vector("u", shape=[network.size])]
+    outputs = [vector("y", shape=[network.io_size]), vector("u_next", shape=[network.size])]
+    nodes = [helper.make_node(kind, takes, [gives], **how) for kind, takes, gives, how in NODES]
+    constants = _constants(network)
     model = helper.make_model(
-        helper.make_graph(
-            [helper.make_node(kind, takes, [gives], **how) for kind, takes, gives, how in NODES],
-            "motionese_step",
-            [vectors["x"], vectors["u"]],
-            [vectors["y"], vectors["u_next"]],
-            _constants(network),
-            doc_string=MEANING,
-        ),
+        helper.make_graph(nodes, "motionese_step", inputs, outputs, constants, doc_string=MEANING),
         opset_imports=[helper.make_opsetid("", OPSET)],
         ir_version=IR_VERSION,
         producer_name="motionese",
@@ -156,20 +146,12 @@ def _difference(content: bytes, network: MTRNN) -> float:
     u = rng.normal(0.0, 3.0, (TRIALS, network.size)).astype(np.float32)
     steps = [session.run(["y", "u_next"], {"x": x[i], "u": u[i]}) for i in range(TRIALS)]
     y, following = (np.stack(outputs) for outputs in zip(*steps, strict=True))
-    exact = _exact_steps(network, x, u)
-    width = network.io_size
-    off_y = np.abs(y - sigmoid(exact[:, :width]))
-    off_u = np.abs(following - exact) / np.maximum(1, _summands(network, u))
-    return float(np.max([off_y.max(), off_u.max()]))
-
-
-def _exact_steps(
-    network: MTRNN, x: Float[ndarray, "B D"], u: Float[ndarray, "B N"]
-) -> Float[ndarray, "B N"]:
-    """Take the same steps with the library in double precision."""
     with jax.enable_x64(True):
         double = jax.tree.map(lambda array: array.astype(jnp.float64), network)
-        return np.asarray(step(double, jnp.asarray(u, jnp.float64), jnp.asarray(x), 1.0))
+        exact = np.asarray(step(double, jnp.asarray(u, jnp.float64), jnp.asarray(x), 1.0))
+    off_y = np.abs(y - sigmoid(exact[:, : network.io_size]))
+    off_u = np.abs(following - exact) / np.maximum(1, _summands(network, u))
+    return float(np.max([off_y.max(), off_u.max()]))
 
 
 def _summands(network: MTRNN, u: Float[ndarray, "B N"]) -> Float[ndarray, "B N"]:

@@ -46,14 +46,7 @@ class Film:
 
 
 def film(geometry: Geometry, network: MTRNN, performance: Performance, rate_hz: float) -> Film:
-    """Return the film of what happened in a performance, outside and inside.
-
-    Args:
-        geometry: The robot's shapes.
-        network: The network that performed.
-        performance: What was recorded.
-        rate_hz: Its rows a second.
-    """
+    """Return the film of a performance of so many rows a second, outside and inside."""
     rows = len(performance.path)
     frames = FRAMES_A_ROW * (rows - 1) + 1
     columns = {

@@ -1,6 +1,5 @@
 """The map of the slow initial states (the paper's Fig. 10) of a robot that is being taught."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,19 +13,6 @@ from motionese.teaching.session import Teaching
 from motionese.teaching.view import hand_seen
 
 DIGITS = 3
-
-
-@dataclass(frozen=True)
-class Origin:
-    """A primitive whose initial state is held but for the slowest level.
-
-    Attributes:
-        state: Its initial state. [N]
-        first: The first row of a demonstration, as the own body would sense it. [D]
-    """
-
-    state: Float[ndarray, " N"]
-    first: Float[ndarray, " D"]
 
 
 class InteractiveMap:
@@ -43,7 +29,9 @@ class InteractiveMap:
     def __init__(self, teaching: Teaching) -> None:
         """Draw the map of a robot whose slow level is open (see `possible`)."""
         scene, network = teaching.scene, teaching.learner.network
-        self._teaching, self._origins = teaching, {}
+        self._teaching = teaching
+        # By primitive: its initial state, and how the own body senses a demonstration's first row.
+        self._origins: dict[str, tuple[Float[ndarray, " N"], Float[ndarray, " D"]]] = {}
         settings = scene.settings.evaluation
         axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
         self.level = network.levels[-1].name
@@ -53,14 +41,11 @@ class InteractiveMap:
             rng = generator_for(scene.seed, "map", primitive.name)
             watched = teaching.watch(scene.caregiver().demonstrate(primitive, rng))
             state = teaching.recogniser.at_the_end(watched).state
-            origin = Origin(state, scene.as_own(primitive.start, watched)[0])
-            self._origins[primitive.name] = origin
+            first = scene.as_own(primitive.start, watched)[0]
+            self._origins[primitive.name] = state, first
             self.grids[primitive.name] = [
-                {
-                    "direction": round(row["direction_1_rad"], DIGITS),
-                    "extent": round(row["extent_1_rad"], DIGITS),
-                }
-                for row in slow_map_of(scene, network, primitive, state, origin.first)
+                {of: round(row[f"{of}_1_rad"], DIGITS) for of in ("direction", "extent")}
+                for row in slow_map_of(scene, network, primitive, state, first)
             ]
         slow = network.units(self.level)
         self.points = [
@@ -75,11 +60,11 @@ class InteractiveMap:
 
     def motion(self, primitive: str, slow: tuple[float, float]) -> Float[ndarray, "T 3"] | None:
         """Return the hand's path [m, world] from a point, for two strokes; None if unknown."""
-        origin = self._origins.get(primitive)
-        if origin is None:
+        if primitive not in self._origins:
             return None
+        held, first = self._origins[primitive]
         scene, network = self._teaching.scene, self._teaching.learner.network
         manner = scene.settings.caregiver
-        state = with_slow_state(network, origin.state, np.array(slow))
-        values = generate(network, state, most_rows(manner), first=origin.first)
+        state = with_slow_state(network, held, np.array(slow))
+        values = generate(network, state, most_rows(manner), first=first)
         return hand_seen(scene.body, values[: 2 * manner.primitive_rows])

@@ -1,6 +1,6 @@
 """The notebook: everything shown so far, how well it was imitated, and what was learned of it."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from jaxtyping import Float
@@ -55,7 +55,7 @@ class Notebook:
 
     entries: tuple[Entry, ...] = ()
     learned: tuple[Learning, ...] = ()
-    next: int = field(default=1)
+    next: int = 1
 
     def entry(self, number: int) -> Entry | None:
         """Return the entry of a number, or None if there is none (any more)."""
@@ -63,10 +63,9 @@ class Notebook:
 
     def with_entry(self, entry: Entry) -> "Notebook":
         """Return the notebook with a new or changed entry."""
-        if self.entry(entry.number) is None:
-            return replace(self, entries=(*self.entries, entry), next=entry.number + 1)
-        changed = tuple(entry if e.number == entry.number else e for e in self.entries)
-        return replace(self, entries=changed)
+        entries = {e.number: e for e in (*self.entries, entry)}
+        following = max(self.next, entry.number + 1)
+        return replace(self, entries=tuple(entries.values()), next=following)
 
     def without(self, number: int) -> "Notebook":
         """Return the notebook without an entry, and without what was learned of it."""

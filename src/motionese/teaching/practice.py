@@ -26,7 +26,6 @@ def practised(
     at least the latest is remembered.
 
     Args:
-        scene: Robot and settings.
         learner: What the robot is, its new experience included.
         loop: The loop that the new experience carries.
         report: Called while it learns; what it raises ends the training.
@@ -40,14 +39,13 @@ def practised(
     learner = learner.remembering(loop, settings.imitation.memory, names)
     longest = max(len(e.values) for e in learner.experiences)
     epochs, (done, parts) = settings.training.epochs, part
+    many = _doubled(CAPACITY, len(learner.experiences))
+    rows = _doubled(STROKES * settings.caregiver.primitive_rows, longest)
     learner, fit = learner.trained(
         settings.training,
         scene.body.rate_hz,
         key=key_for(scene.seed, "training", loop),
-        padded_to=(
-            _doubled(CAPACITY, len(learner.experiences)),
-            _doubled(STROKES * settings.caregiver.primitive_rows, longest),
-        ),
+        padded_to=(many, rows),
         progress=lambda now: report(done * epochs + now.epoch, parts * epochs, now),
     )
     if fit.status.failed:

@@ -89,15 +89,12 @@ class Recogniser:
         network, scene = self.learner.network, self.scene
         values = scene.as_own(start_of(watched.path, scene.task).start, watched)[begin:]
         seen = scene.to_recognise([values], own_arm=begin == 0)
+        starts = np.stack([self._carried(before, begin), *self._recalled(seen, padded)])[None]
+        effort = {"iterations": iterations, "starts": RANDOM}
+        settings = self.learner.for_levels(scene.settings.recognition).model_copy(update=effort)
+        key, size = jax.random.key(len(watched.path)), (1, padded)
         found = recognise_all(
-            network,
-            seen,
-            starts=np.stack([self._carried(before, begin), *self._recalled(seen, padded)])[None],
-            settings=self.learner.for_levels(scene.settings.recognition).model_copy(
-                update={"iterations": iterations, "starts": RANDOM}
-            ),
-            key=jax.random.key(len(watched.path)),
-            padded_to=(1, padded),
+            network, seen, starts=starts, settings=settings, key=key, padded_to=size
         )[0]
         first = values[0].copy()
         if begin:  # in the middle of a motion the arm is where it is recognised to be

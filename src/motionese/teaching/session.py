@@ -59,11 +59,7 @@ class Change:
 class Standing:
     """Where a session stands; it can be returned to.
 
-    Attributes:
-        learner: What the robot has become.
-        number: The learner's number; no two learners of a session have the same.
-        notebook: What it was shown.
-        observed: What it was shown last, if anything.
+    No two learners of a session have the same number; `observed` is what was shown last.
     """
 
     learner: Learner
@@ -76,7 +72,6 @@ class Teaching:
     """One session; its methods may take a second, and are stopped by what `report` raises.
 
     Attributes:
-        scene: The robot.
         standing: Where the session stands.
         numbers: How many learners were numbered so far.
         recogniser: Recognises with what the robot knows now.
@@ -140,7 +135,6 @@ class Teaching:
 
         Args:
             path: The hand's path [m, world] at the robot's tempo.
-            source: Who shows it.
             drawn: The hand's path as it was drawn in time, where that differs.
             before: What was understood while it was drawn.
         """
@@ -154,7 +148,8 @@ class Teaching:
         name = sequence.name if sequence else f"{start_of(path, task).start} ?"
         entry = Entry(notebook.next, name, source, path if drawn is None else drawn, demonstration)
         observed = Observation(entry, watched, interpretation, verdict)
-        self._change(notebook=notebook.with_entry(entry), observed=observed)
+        notebook = notebook.with_entry(entry)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return observed
 
     def imitate(self) -> Trial:
@@ -163,9 +158,9 @@ class Teaching:
         trial = self._trial(observed.watched, observed.interpretation)
         entry = self.notebook.entry(observed.entry.number) or observed.entry
         entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
-        self._change(
-            notebook=self.notebook.with_entry(entry), observed=replace(observed, entry=entry)
-        )
+        observed = replace(observed, entry=entry)
+        notebook = self.notebook.with_entry(entry)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return trial
 
     def learn(self, report: Report) -> Change:
@@ -215,7 +210,8 @@ class Teaching:
         observed = self.observed
         if observed is not None and observed.entry.number == number:
             observed = None
-        self._change(notebook=self.notebook.without(number), observed=observed)
+        notebook = self.notebook.without(number)
+        self.standing = replace(self.standing, notebook=notebook, observed=observed)
         if not places:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
@@ -254,15 +250,10 @@ class Teaching:
 
     def warm_up(self) -> None:
         """Let everything be compiled that a drawing asks for, by what nobody sees."""
-        sequence = self.scene.task.sequences(1)[0]
-        rng = generator_for(0, "warming")
+        sequence, rng = self.scene.task.sequences(1)[0], generator_for(0, "warming")
         watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
-        so_far = self.recogniser.so_far(watched, None)
-        state = self.recogniser.at_the_end(watched, so_far).state
+        state = self.recogniser.at_the_end(watched, self.recogniser.so_far(watched, None)).state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
-
-    def _change(self, *, notebook: Notebook, observed: Observation | None) -> None:
-        self.standing = replace(self.standing, notebook=notebook, observed=observed)
 
     def _become(self, learner: Learner) -> None:
         self.numbers += 1
@@ -270,14 +261,14 @@ class Teaching:
 
     def _note(self, learning: Learning) -> None:
         notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
-        self._change(notebook=notebook, observed=self.observed)
+        self.standing = replace(self.standing, notebook=notebook)
 
     def _look_again(self) -> None:
         """Recognise what was shown last with the network as it is now."""
         if (observed := self.observed) is not None:
             interpretation = self.recogniser.at_the_end(observed.watched)
             observed = replace(observed, interpretation=interpretation)
-            self._change(notebook=self.notebook, observed=observed)
+            self.standing = replace(self.standing, observed=observed)
 
     def _observed(self) -> Observation:
         assert self.observed is not None, "something must be shown before it is imitated"
@@ -288,10 +279,9 @@ class Teaching:
 
     def _trial(self, watched: Watched, interpretation: Interpretation) -> Trial:
         sequence = start_of(watched.path, self.scene.task)
-        done = self.scene.perform(
-            self.learner.network, interpretation.state, sequence, len(watched.path), "teaching"
-        )
-        return Trial(done, interpretation.state, path_error_cm(done.path, watched.path))
+        state, rows = interpretation.state, len(watched.path)
+        done = self.scene.perform(self.learner.network, state, sequence, rows, "teaching")
+        return Trial(done, state, path_error_cm(done.path, watched.path))
 
     def _error_of(self, entry: Entry) -> float:
         watched = self.watch(entry.demonstration)

@@ -13,13 +13,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from motionese.caregiver import (
-    DEMONSTRATIONS,
-    Demonstration,
-    moving,
-    recording_of,
-    sequence_in,
-)
+from motionese.caregiver import DEMONSTRATIONS, Demonstration, moving, recording_of, sequence_in
 from motionese.caregiver.recorded_caregiver import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole
@@ -49,7 +43,6 @@ class SessionFolder:
     """Where a session is kept.
 
     Attributes:
-        path: The folder.
         id: A name of the session that no other has.
         began: What its robot began from.
     """
@@ -72,7 +65,6 @@ class SessionFolder:
 
         Args:
             began: "babbling", "fresh", or what the learner comes from.
-            scene: The robot and its settings.
             learner: What it is; where left out one that has babbled, or has done nothing yet.
 
         Raises:
@@ -169,15 +161,10 @@ class SessionFolder:
         return read_learner(self._learner_path(number))[0]
 
     def _facts(self, teaching: Teaching) -> dict[str, Any]:
-        entries = [
-            {
-                "number": entry.number,
-                "motion": entry.motion,
-                "source": entry.source,
-                "errors_cm": entry.errors_cm,
-            }
-            for entry in teaching.notebook.entries
-        ]
+        names = ("number", "motion", "source", "errors_cm")
+        entries = [{n: getattr(entry, n) for n in names} for entry in teaching.notebook.entries]
+        own = set(Settings.model_fields)
+        settings = teaching.scene.settings.model_dump(mode="json", include=own)
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -189,11 +176,7 @@ class SessionFolder:
             "next": teaching.notebook.next,
             "entries": entries,
             "learned": [asdict(each) for each in teaching.notebook.learned],
-            "settings": {
-                name: value
-                for name, value in teaching.scene.settings.model_dump(mode="json").items()
-                if name in Settings.model_fields
-            },
+            "settings": settings,
         }
 
     def _entry(self, facts: dict[str, Any]) -> Entry:

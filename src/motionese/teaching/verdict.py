@@ -11,6 +11,7 @@ Distances compare ways, not times: both paths are followed evenly along their le
 """
 
 from collections.abc import Collection, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy import ndarray
 
 from motionese.caregiver import evenly_along, intended_way, sequence_in
 from motionese.errors import TaskError
+from motionese.imitation import path_error_cm
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.recogniser import start_of
 
@@ -55,14 +57,7 @@ def verdict_on(
     task: Task,
     known: Iterable[str],
 ) -> Verdict:
-    """Return the verdict on what was watched.
-
-    Args:
-        shown: The path of the shown hand [m, world].
-        understood: The hand's path as it was recognised [m, world].
-        task: The task.
-        known: Names of the motions that were learned.
-    """
+    """Return the verdict on a shown and an understood path [m, world]; `known` names motions."""
     recognised, drawn = (sequence_in(path, task) for path in (understood, shown))
     candidates = _candidates(known, (recognised, drawn), task)
     sure = dict(zip(candidates, confidence(candidates, shown, understood, task), strict=True))
@@ -73,7 +68,7 @@ def verdict_on(
         shown=drawn,
         confidence=how_sure,
         alternatives=tuple((other, sure[other]) for other in others[:ALTERNATIVES]),
-        error_cm=float(100 * np.linalg.norm(understood - shown, axis=1).mean()),
+        error_cm=path_error_cm(understood, shown),
         sentence=_sentence(task, shown, recognised, drawn, how_sure),
     )
 
@@ -99,11 +94,9 @@ def _candidates(
 ) -> list[PrimitiveSequence]:
     sequences = [s for length in (1, 2, 3) for s in task.sequences(length)]
     for name in known:
-        try:
+        with suppress(TaskError):  # babbling, and what a person taught that is no sequence
             sequences.append(task.sequence(name))
-        except TaskError:  # babbling, and what a person taught that is no sequence of the task
-            continue
-    return list(dict.fromkeys([*sequences, *(sequence for sequence in read if sequence)]))
+    return list(dict.fromkeys([*sequences, *filter(None, read)]))
 
 
 def _sentence(

@@ -5,28 +5,19 @@ from collections.abc import Iterable, Sequence
 
 from motionese.errors import SettingError
 from motionese.experiment import Condition, Study, condition_named
+from motionese.interfaces.commands.model_commands import LARGEST_SEED
 
-LARGEST_SEED = 2**32 - 1
-"""Larger seeds would be cut to 32 bits, and mean the same as smaller ones."""
 MOST_SEEDS = 10_000
 
 
 def read_conditions(texts: Iterable[str], study: Study) -> list[Condition]:
-    """Return the named conditions in the study's order, all of them if none is named.
-
-    Args:
-        texts: Names such as "TD/MD"; several in one text are separated by commas.
-        study: The settings, whose factors make the conditions.
+    """Return the conditions of names, commas between them, in the study's order; all of no name.
 
     Raises:
         SettingError: A condition that does not exist.
     """
-    named = [
-        condition_named(name.strip(), study.factors)
-        for text in texts
-        for name in text.split(",")
-        if name.strip()
-    ]
+    names = [name.strip() for text in texts for name in text.split(",")]
+    named = [condition_named(name, study.factors) for name in names if name]
     return [c for c in study.conditions if not named or c in named]
 
 
@@ -67,5 +58,4 @@ def _range(part: str, text: str) -> tuple[int, int]:
     found = re.fullmatch(r"\s*(\d+)\s*(?:[-–]\s*(\d+)\s*)?", part)
     if not found:
         raise SettingError(f"--seeds {text}: '{part.strip()}' is no seed; {_HOW}")
-    first, last = found[1], found[2] or found[1]
-    return int(first), int(last)
+    return int(found[1]), int(found[2] or found[1])

@@ -5,17 +5,14 @@ complaints come at once.
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import metadata
 from typing import Annotated
 
 import typer
+from typer import Option
 
-from motionese.interfaces.commands import (
-    experiment_commands,
-    model_commands,
-    recording_commands,
-)
+from motionese.interfaces.commands import experiment_commands, model_commands, recording_commands
 
 app = typer.Typer(
     help="Developmental imitation learning: the experiment, and your own robot's recordings.",
@@ -24,6 +21,22 @@ app = typer.Typer(
     # The tables of locals in Typer's own tracebacks hide the line that matters.
     pretty_exceptions_enable=False,
 )
+PANELS: dict[str, dict[str, Callable[..., None]]] = {
+    "The experiment": {
+        "reproduce": experiment_commands.reproduce,
+        "report": experiment_commands.report,
+        "presets": experiment_commands.presets,
+        "teach": experiment_commands.teach,
+    },
+    "Your own robot": {
+        "import": recording_commands.import_recordings,
+        "inspect": recording_commands.inspect,
+        "export": recording_commands.export,
+        "train": model_commands.train,
+        "recognise": model_commands.recognise,
+        "generate": model_commands.generate,
+    },
+}
 SEVERAL = (
     *("--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
     *("--observed", "--log", "--like", "--start"),
@@ -60,7 +73,7 @@ def _show_version(asked: bool) -> bool:
 def _root(
     version: Annotated[
         bool,
-        typer.Option(
+        Option(
             "--version", callback=_show_version, is_eager=True, help="Show the version and leave."
         ),
     ] = False,
@@ -68,6 +81,6 @@ def _root(
     """Take what stands before a command."""
 
 
-experiment_commands.add_to(app)
-recording_commands.add_to(app)
-model_commands.add_to(app)
+for panel, commands in PANELS.items():
+    for name, command in commands.items():
+        app.command(name, rich_help_panel=panel)(command)

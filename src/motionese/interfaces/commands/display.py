@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
 from rich.progress import (
@@ -36,8 +36,9 @@ Own = TypeVar("Own", bound="_Display")
 class _Display:
     """Bars while it is entered, if the console is a terminal."""
 
-    def __init__(self, console: Console, bars: Bars) -> None:
-        self._console, self._bars, self._said = console, bars, time.monotonic()
+    def __init__(self, console: Console, *columns: ProgressColumn, **how: Any) -> None:
+        self._console, self._said = console, time.monotonic()
+        self._bars = Bars(*columns, console=console, transient=True, **how)
 
     def __enter__(self: Own) -> Own:
         if self._console.is_terminal:
@@ -60,29 +61,23 @@ class Display(_Display):
 
     def __init__(self, console: Console, runs: Sequence["Run"], loops: int) -> None:
         """Prepare for runs of so many loops each, counting what they have done already."""
-        bars = Bars(
-            *(TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()),
-            *(TextColumn("loops"), _TimeLeft()),
-            console=console,
-            transient=True,
-            speed_estimate_period=WHOLE_HISTORY_S,
-        )
-        super().__init__(console, bars)
+        shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
+        after = TextColumn("loops"), _TimeLeft()
+        super().__init__(console, *shown, *after, speed_estimate_period=WHOLE_HISTORY_S)
         self._loops = loops
         self._done = {run.name: loops if run.ended() else run.loops_done() for run in runs}
         self._left = sum(run.ended() is None for run in runs)
         self._rows: dict[str, TaskID] = {}
         done, total = sum(self._done.values()), loops * len(runs)
-        self._all = bars.add_task(
+        self._all = self._bars.add_task(
             "all runs", total=total, completed=done, told_from=100 * (0.9 * done / total + 0.1)
         )
 
     def loop_done(self, run: "Run", loop: int) -> None:
         """Show a run's last whole loop; its row appears with the first one that is told."""
         if run.name not in self._rows:
-            self._rows[run.name] = self._bars.add_task(
-                run.name, total=self._loops, told_from=math.inf
-            )
+            row = self._bars.add_task(run.name, total=self._loops, told_from=math.inf)
+            self._rows[run.name] = row
         doing = run.name if loop < self._loops else f"{run.name}, evaluation"
         self._bars.update(self._rows[run.name], completed=loop, description=doing)
         self._advance(run, loop)
@@ -129,19 +124,17 @@ class TrainingDisplay(_Display):
 
     def __init__(self, console: Console, epochs: int, done: int) -> None:
         """Prepare for so many epochs, some of them done before."""
-        bars = Bars(
+        super().__init__(
+            console,
             BarColumn(bar_width=None),
             MofNCompleteColumn(table_column=Column(no_wrap=True)),
             TextColumn("{task.description}", table_column=Column(no_wrap=True)),
             TimeRemainingColumn(compact=True, table_column=Column(no_wrap=True)),
-            console=console,
-            transient=True,
             expand=True,
             speed_estimate_period=TRAINING_HISTORY_S,
         )
-        super().__init__(console, bars)
         self._epochs = epochs
-        self._task = bars.add_task("", total=epochs, completed=done)
+        self._task = self._bars.add_task("", total=epochs, completed=done)
 
     def show(self, progress: Progress) -> None:
         """Show how far training is."""
@@ -150,11 +143,7 @@ class TrainingDisplay(_Display):
             parts.append(f"held out {progress.validation_error:.1%}")
         told = f"{', '.join(parts)} of range"
         self._bars.update(self._task, completed=progress.epoch, description=told)
-        left = self._bars.tasks[0].time_remaining
-        self._say(
-            [
-                f"{progress.epoch} of {self._epochs} epochs",
-                *(told, f"about {left:.0f} s left" if left else ""),
-            ],
-            after_s=TRAINING_LINE_EVERY_S,
-        )
+        seconds = self._bars.tasks[0].time_remaining
+        left = f"about {seconds:.0f} s left" if seconds else ""
+        epochs = f"{progress.epoch} of {self._epochs} epochs"
+        self._say([epochs, told, left], after_s=TRAINING_LINE_EVERY_S)

@@ -58,9 +58,8 @@ def interruptible() -> Iterator[None]:
 
     Code that must not raise, as in garbage collection, may swallow it.
     """
-    handlers = {
-        number: signal.signal(number, _interrupt) for number in (signal.SIGINT, signal.SIGALRM)
-    }
+    numbers = signal.SIGINT, signal.SIGALRM
+    handlers = {number: signal.signal(number, _interrupt) for number in numbers}
     untold = sys.unraisablehook
     sys.unraisablehook = lambda what: None if what.exc_type is KeyboardInterrupt else untold(what)
     try:

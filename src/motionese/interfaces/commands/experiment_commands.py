@@ -7,56 +7,47 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer import Argument, Option
 
 from motionese.errors import SettingError, needs, unknown
 from motionese.interfaces.commands.exit_status import WRONG, plainly
+from motionese.interfaces.commands.recording_options import Texts
 
-PANEL = "The experiment"
 EXPERIMENT = ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas", "scipy")
 MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn", "websockets")}
 """What an extra brings."""
 
 
-def add_to(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    for command in (reproduce, report, presets, teach):
-        app.command(rich_help_panel=PANEL)(command)
-
-
 def reproduce(
     conditions: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all."
-        ),
+        Texts,
+        Option(metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all."),
     ] = None,
     seeds: Annotated[
-        str, typer.Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
+        str, Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
     ] = "3",
     preset: Annotated[
-        str, typer.Option(metavar="NAME|FILE", help="Settings; see `motionese presets`.")
+        str, Option(metavar="NAME|FILE", help="Settings; see `motionese presets`.")
     ] = "default",
     overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40."),
+        Texts, Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40.")
     ] = None,
     vision: Annotated[
-        str | None,
-        typer.Option(metavar="projection|rendered", help="Where the robot sees hands from."),
+        str | None, Option(metavar="projection|rendered", help="Where the robot sees hands from.")
     ] = None,
     caregiver: Annotated[
         str,
-        typer.Option(
+        Option(
             metavar="scripted|recordings:FOLDER",
             help="Who shows the motions: e.g. what `motionese teach` has kept in a folder.",
         ),
     ] = "scripted",
-    out: Annotated[Path | None, typer.Option(help="The run folder; default: runs/PRESET.")] = None,
+    out: Annotated[Path | None, Option(help="The run folder; default: runs/PRESET.")] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Runs at a time; default: one a core.")
+        int | None, Option(min=1, help="Runs at a time; default: one a core.")
     ] = None,
     quick: Annotated[
-        bool, typer.Option("--quick", help="A short trial of everything; its figures mean nothing.")
+        bool, Option("--quick", help="A short trial of everything; its figures mean nothing.")
     ] = False,
 ) -> None:
     """Perform the experiment, or go on with it, and report.
@@ -83,7 +74,7 @@ def reproduce(
     _end(too_few, trial=quick)
 
 
-def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RUN")]) -> None:
+def report(run: Annotated[Path, Argument(help="A run folder.", metavar="RUN")]) -> None:
     """Write the report of a run folder again, also while its runs go on."""
     with plainly("stopped; the report was not written") as console:
         _check_extra("report")
@@ -93,9 +84,7 @@ def report(run: Annotated[Path, typer.Argument(help="A run folder.", metavar="RU
     _end(too_few)
 
 
-def presets(
-    name: Annotated[str | None, typer.Argument(help="The preset to print.")] = None,
-) -> None:
+def presets(name: Annotated[str | None, Argument(help="The preset to print.")] = None) -> None:
     """List the presets, or print one to copy and edit."""
     with plainly("stopped"):
         _check_extra("presets")
@@ -113,21 +102,21 @@ def presets(
 def teach(
     begin: Annotated[
         str,
-        typer.Option(
+        Option(
             metavar="babbling|RUN",
             help="A robot that has only babbled, or a run folder's (RUN/CONDITION/SEED for one).",
         ),
     ] = "",
     session: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Where the session is kept, and goes on from.")
+        Path, Option(metavar="FOLDER", help="Where the session is kept, and goes on from.")
     ] = Path("session"),
     host: Annotated[
-        str, typer.Option(help="The address to listen at; others need a --token.")
+        str, Option(help="The address to listen at; others need a --token.")
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=0, max=65535, help="0: any that is free.")] = 0,
-    token: Annotated[str, typer.Option(help="What a page must know to be let in.")] = "",
+    port: Annotated[int, Option(min=0, max=65535, help="0: any that is free.")] = 0,
+    token: Annotated[str, Option(help="What a page must know to be let in.")] = "",
     no_browser: Annotated[
-        bool, typer.Option("--no-browser", help="Print the address, open nothing.")
+        bool, Option("--no-browser", help="Print the address, open nothing.")
     ] = False,
 ) -> None:
     """Teach the simulated robot yourself, on a page in your browser."""

@@ -12,7 +12,7 @@ from motionese.interfaces.commands.initial_states import read_initial_states
 from motionese.interfaces.commands.motion_figure import write_figure
 from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_output
 from motionese.interfaces.commands.summaries import reach
-from motionese.learning import Fit, Motions, generate_sequence, load
+from motionese.learning import Motions, generate_sequence, load
 
 
 def generate_motion(
@@ -27,18 +27,15 @@ def generate_motion(
     blend: int | None,
     out: Path,
 ) -> None:
-    """Generate one motion, or several in sequence, and write it.
+    """Generate one motion, or several in sequence; write it as `out`'s suffix has it.
 
     Args:
-        console: Where it is told.
-        model: The model's file.
         like: Names of learned motions; or, with `initial`, of motions in that file.
         initial: A file of initial states, as `recognise` writes them.
         steps: Rows of every motion; as many as it had, times the duration, for None.
         duration: How many times as long the motions last.
         start: Where the robot is, by channel, in the channels' units.
         blend: Rows of a transition between motions; found for None.
-        out: Recording or picture to write, by its suffix.
     """
     check_output("--out", out, (*RECORDINGS, *PICTURES))
     fit = load(model)
@@ -56,7 +53,13 @@ def generate_motion(
         raise SettingError(
             f"say what to generate: --like EPISODE, one of {', '.join(known)}; or --initial FILE"
         )
-    states, rows, names = _chosen(fit, known, like, steps, duration)
+    for name in like:
+        if name not in known:
+            raise SettingError(f"--like {name}: {unknown('motion', name, known)}")
+    taken = list(like) or list(known)
+    names = " + ".join(taken)
+    states = [known[name][0] for name in taken]
+    rows = [steps or max(round((known[name][1] - 1) * duration) + 1, 2) for name in taken]
     if start:
         _check_start(fit.network.channels, start)
     path = generate_sequence(
@@ -86,20 +89,3 @@ def _check_start(channels: Channels, start: Mapping[str, float]) -> None:
                 f"--start {channel.name}={value:g}: where the robot is must lie within the model's "
                 f"reach, {lowest:.4g} to {highest:.4g}{f' {channel.unit}' * bool(channel.unit)}"
             )
-
-
-def _chosen(
-    fit: Fit,
-    known: Mapping[str, tuple[np.ndarray, int]],
-    like: Sequence[str],
-    steps: int | None,
-    duration: float,
-) -> tuple[list[np.ndarray], list[int], str]:
-    """Return initial states and rows of the motions asked for, and what to call them."""
-    for name in like:
-        if name not in known:
-            raise SettingError(f"--like {name}: {unknown('motion', name, known)}")
-    names = list(like) or list(known)
-    states = [known[name][0] for name in names]
-    rows = [steps or max(round((known[name][1] - 1) * duration) + 1, 2) for name in names]
-    return states, rows, " + ".join(names)

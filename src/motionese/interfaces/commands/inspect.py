@@ -20,14 +20,7 @@ MOST_EPISODES = 40
 def inspect_recordings(
     console: Console, source: Path, plot: Path, reading: Mapping[str, Any]
 ) -> None:
-    """Print what is in a file or folder of recordings, and draw it.
-
-    Args:
-        console: Where it is printed.
-        source: The file or folder.
-        plot: The figure to write, .svg or .png.
-        reading: Format, columns, channels and rate, as `Motions.read` takes them.
-    """
+    """Print what is in a file or folder of recordings, read as `Motions.read` would; draw it."""
     check_output("--plot", plot, PICTURES)
     columns = {name: reading[name] for name in ("format", "episode", "time")}
     choice = choose(**{name: told for name, told in reading.items() if name not in columns})
@@ -37,18 +30,11 @@ def inspect_recordings(
     console.print(_heading(found, numbers, rate), soft_wrap=True)
     console.print(_channels(numbers))
     console.print(_episodes(numbers, rate))
-    write_figure(
-        plot,
-        [
-            np.where(e.observed & np.isfinite(e.values), e.values, np.nan)
-            for e in found.episodes
-            if len(e.values)
-        ],
-        [e.name for e in found.episodes if len(e.values)],
-        list(zip(found.channels, found.units, strict=True)),
-        rate,
-        f"{source.name}: {len(found.episodes)} episodes",
-    )
+    drawn = [e for e in found.episodes if len(e.values)]
+    paths = [np.where(e.observed & np.isfinite(e.values), e.values, np.nan) for e in drawn]
+    channels = list(zip(found.channels, found.units, strict=True))
+    title = f"{source.name}: {len(found.episodes)} episodes"
+    write_figure(plot, paths, [e.name for e in drawn], channels, rate, title)
     console.print(f"Plot: {plot}")
 
 
@@ -63,22 +49,13 @@ def _heading(found: Recording, numbers: Survey, rate: float | None) -> str:
 
 
 def _channels(numbers: Survey) -> Table:
-    table = number_table(
-        "channel", "unit", "low", "high", "mean\nstep", "still", "gaps", "NaN", "inf"
-    )
+    headings = ("low", "high", "mean\nstep", "still", "gaps", "NaN", "inf")
+    table = number_table("channel", "unit", *headings)
     table.columns[1].justify = "left"
     for c in numbers.channels:
-        table.add_row(
-            c.name,
-            c.unit or "–",
-            _number(c.low),
-            _number(c.high),
-            _number(c.mean_step),
-            f"{c.still:.0%}",
-            f"{c.unobserved:.0%}",
-            _count(c.nan),
-            _count(c.infinite),
-        )
+        values = ("–" if v is None else f"{v:.3g}" for v in (c.low, c.high, c.mean_step))
+        shares = f"{c.still:.0%}", f"{c.unobserved:.0%}"
+        table.add_row(c.name, c.unit or "–", *values, *shares, *map(_count, (c.nan, c.infinite)))
     return table
 
 
@@ -92,23 +69,14 @@ def _episodes(numbers: Survey, rate: float | None) -> Table:
             "–" if seconds is None else f"{seconds:.2f}",
             f"{e.still:.0%} ({e.still_start:.0%}, {e.still_end:.0%})",
             f"{e.unobserved:.0%}",
-            _count(e.holes),
-            _count(e.nan),
-            _count(e.infinite),
+            *map(_count, (e.holes, e.nan, e.infinite)),
         )
     further = numbers.episodes[MOST_EPISODES:]
     if further:
-        table.add_row(
-            f"{len(further)} more",
-            str(sum(e.rows for e in further)),
-            *["–"] * 3,
-            *(_count(sum(getattr(e, n) for e in further)) for n in ("holes", "nan", "infinite")),
-        )
+        rows = str(sum(e.rows for e in further))
+        counts = (sum(getattr(e, n) for e in further) for n in ("holes", "nan", "infinite"))
+        table.add_row(f"{len(further)} more", rows, *["–"] * 3, *map(_count, counts))
     return table
-
-
-def _number(value: float | None) -> str:
-    return "–" if value is None else f"{value:.3g}"
 
 
 def _count(number: int) -> str:

@@ -6,11 +6,11 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Argument, Option
 
 from motionese.interfaces.commands.exit_status import plainly
-from motionese.interfaces.commands.recording_commands import PANEL
 from motionese.interfaces.commands.recording_options import (
+    Texts,
     as_read,
     read_values,
     separated,
@@ -18,52 +18,40 @@ from motionese.interfaces.commands.recording_options import (
 )
 from motionese.one_core import one_core
 
-Model = Annotated[Path, typer.Argument(metavar="MODEL", help="A model that `train` wrote.")]
-
+Model = Annotated[Path, Argument(metavar="MODEL", help="A model that `train` wrote.")]
 LARGEST_SEED = 2**32 - 1
-
-
-def add_to(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    app.command(rich_help_panel=PANEL)(train)
-    app.command(rich_help_panel=PANEL)(recognise)
-    app.command(rich_help_panel=PANEL)(generate)
+"""Larger seeds would be cut to 32 bits, and mean the same as smaller ones."""
 
 
 @with_recording_options()
 def train(
-    data: Annotated[Path, typer.Argument(metavar="DATA", help="Recordings, in any format.")],
-    out: Annotated[Path, typer.Option(metavar="MODEL.safetensors", help="The file to write.")],
+    data: Annotated[Path, Argument(metavar="DATA", help="Recordings, in any format.")],
+    out: Annotated[Path, Option(metavar="MODEL.safetensors", help="The file to write.")],
     reading: dict[str, Any],
     levels: Annotated[
-        str,
-        typer.Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps."),
+        str, Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps.")
     ] = "40:5,8:70",
-    io_tau: Annotated[
-        float, typer.Option(metavar="TAU", help="τ of the IO level, in steps.")
-    ] = 2.0,
-    epochs: Annotated[int | None, typer.Option(min=1, help="Default: 3000.")] = None,
+    io_tau: Annotated[float, Option(metavar="TAU", help="τ of the IO level, in steps.")] = 2.0,
+    epochs: Annotated[int | None, Option(min=1, help="Default: 3000.")] = None,
     held_out: Annotated[
         str | None,
-        typer.Option(metavar="SHARE|NAMES", help="Motions not learned but tested; default: 0.1."),
+        Option(metavar="SHARE|NAMES", help="Motions not learned but tested; default: 0.1."),
     ] = None,
     patience: Annotated[
         int | None,
-        typer.Option(min=0, metavar="EPOCHS", help="Stop early when the loss no longer falls."),
+        Option(min=0, metavar="EPOCHS", help="Stop early when the loss no longer falls."),
     ] = None,
     seed: Annotated[
-        int, typer.Option(min=0, max=LARGEST_SEED, help="Of weights, held-out motions, noise.")
+        int, Option(min=0, max=LARGEST_SEED, help="Of weights, held-out motions, noise.")
     ] = 0,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with a training that was stopped.")
+        bool, Option("--resume", help="Go on with a training that was stopped.")
     ] = False,
     log: Annotated[
-        list[str] | None,
-        typer.Option(metavar="jsonl|tensorboard|rerun …", help="Logs beside the model."),
+        Texts, Option(metavar="jsonl|tensorboard|rerun …", help="Logs beside the model.")
     ] = None,
     overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE …", help="E.g. teacher_forcing=0.3 bound=10."),
+        Texts, Option("--set", metavar="NAME=VALUE …", help="E.g. teacher_forcing=0.3 bound=10.")
     ] = None,
 ) -> None:
     """Train a network on recordings; tell how good it is in closed loop."""
@@ -89,20 +77,19 @@ def train(
 @with_recording_options("unit", "range", "margin")
 def recognise(
     model: Model,
-    motion: Annotated[Path, typer.Argument(metavar="MOTION", help="A recording of motions.")],
+    motion: Annotated[Path, Argument(metavar="MOTION", help="A recording of motions.")],
     reading: dict[str, Any],
     observed: Annotated[
-        list[str] | None,
-        typer.Option(metavar="PATTERN …", help="Channels to look at; default: all."),
+        Texts, Option(metavar="PATTERN …", help="Channels to look at; default: all.")
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="PATH.csv|.npz", help="Write the recognised motions, all channels."),
+        Option(metavar="PATH.csv|.npz", help="Write the recognised motions, all channels."),
     ] = None,
     initial: Annotated[
-        Path | None, typer.Option(metavar="FILE.json", help="Write the initial states.")
+        Path | None, Option(metavar="FILE.json", help="Write the initial states.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, max=LARGEST_SEED, help="Of the random starts.")] = 0,
+    seed: Annotated[int, Option(min=0, max=LARGEST_SEED, help="Of the random starts.")] = 0,
 ) -> None:
     """Find the initial states from which a model generates a motion, from what is observed."""
     with plainly("stopped; nothing was written") as console:
@@ -124,29 +111,26 @@ def recognise(
 def generate(
     model: Model,
     out: Annotated[
-        Path, typer.Option(metavar="PATH.csv|.npz|.svg", help="Recording or picture to write.")
+        Path, Option(metavar="PATH.csv|.npz|.svg", help="Recording or picture to write.")
     ],
     like: Annotated[
-        list[str] | None,
-        typer.Option(metavar="EPISODE …", help="Learned motions; several are blended in sequence."),
+        Texts, Option(metavar="EPISODE …", help="Learned motions; several are blended in sequence.")
     ] = None,
     initial: Annotated[
-        Path | None, typer.Option(metavar="FILE.json", help="Initial states from `recognise`.")
+        Path | None, Option(metavar="FILE.json", help="Initial states from `recognise`.")
     ] = None,
     steps: Annotated[
-        int | None,
-        typer.Option(min=2, max=1_000_000, help="Rows a motion; default: as it was, scaled."),
+        int | None, Option(min=2, max=1_000_000, help="Rows a motion; default: as it was, scaled.")
     ] = None,
     duration_scale: Annotated[
-        float, typer.Option(metavar="SCALE", help="How many times as long: 0.5 to 2.")
+        float, Option(metavar="SCALE", help="How many times as long: 0.5 to 2.")
     ] = 1.0,
     start: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE …", help="Where the robot is; else as it was recorded."),
+        Texts, Option(metavar="NAME=VALUE …", help="Where the robot is; else as it was recorded.")
     ] = None,
     blend: Annotated[
         int | None,
-        typer.Option(min=0, metavar="ROWS", help="Of a transition; default: no faster than else."),
+        Option(min=0, metavar="ROWS", help="Of a transition; default: no faster than else."),
     ] = None,
 ) -> None:
     """Generate a motion in closed loop, as a recording or a picture."""

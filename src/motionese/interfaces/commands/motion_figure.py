@@ -18,7 +18,7 @@ from motionese.files import write_whole
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
 """Panels side by side, their height [inch], and how many channels are drawn at most."""
 LARGEST = 1e100
-"""Beyond it values are not drawn."""
+"""Beyond it values are gaps: an axis' arithmetic overflows."""
 MANY = 8
 """From so many motions on, lines are thin and pale and have no names."""
 COLOURS = [*(colour for hue in HUES for colour in hue), "#cc79a7", "#000000"]
@@ -38,10 +38,8 @@ def write_figure(
     Args:
         path: The file to write; PNG if it ends so, else SVG.
         paths: The motions; NaN where nothing was observed. [T_i, D]
-        names: Their names.
         channels: Name and unit of every channel.
         rate_hz: Rows per second [Hz]; rows are counted where it is None.
-        title: What is drawn.
 
     Raises:
         StorageError: A file that cannot be written.
@@ -59,11 +57,6 @@ def write_figure(
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
 
 
-def _drawable(values: Float[ndarray, " T"]) -> Float[ndarray, " T"]:
-    """Return values with gaps where they are so large that an axis' arithmetic overflows."""
-    return np.where(np.abs(values) <= LARGEST, values, np.nan)
-
-
 def _figure(
     paths: Sequence[Float[ndarray, "_ D"]],
     names: Sequence[str],
@@ -78,9 +71,10 @@ def _figure(
     few = len(paths) < MANY
     for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
         for i, motion in enumerate(paths):
+            values = motion[:, column]
             panel.plot(
                 np.arange(len(motion)) / (rate_hz or 1.0),
-                _drawable(motion[:, column]),
+                np.where(np.abs(values) <= LARGEST, values, np.nan),
                 color=COLOURS[i % len(COLOURS)] if few else INK,
                 linewidth=1.4 if few else 0.7,
                 alpha=1.0 if few else 0.35,

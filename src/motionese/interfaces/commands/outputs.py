@@ -19,12 +19,7 @@ MODEL_SUFFIX = ".safetensors"
 
 
 def check_output(option: str, path: Path, suffixes: Sequence[str]) -> None:
-    """Refuse the name of a file that could not be written.
-
-    Args:
-        option: What the user has named it with, for the message.
-        path: The file.
-        suffixes: What its name may end in.
+    """Refuse the name of a file, given with an option, that could not be written.
 
     Raises:
         SettingError: Another suffix.

@@ -34,14 +34,10 @@ def recognise_motions(
     """Recognise every motion of a recording, and tell how well each was recognised.
 
     Args:
-        console: Where it is told.
-        model: The model's file.
-        source: The recording.
         observed: Names or patterns of the channels that are looked at; all for None.
         out: Where to write the recognised motions, all channels; nowhere for None.
         initial: Where to write the initial states (.json); nowhere for None.
-        seed: Of the random starts.
-        reading: How, as `Motions.read` takes it.
+        reading: How `source` is read, as `Motions.read` takes it.
     """
     if initial is not None:
         check_output("--initial", initial, (".json",))
@@ -61,10 +57,9 @@ def recognise_motions(
         write_initial_states(initial, fit.network, states, rows)
         console.print(f"Initial states: {initial}")
     if out is not None:
-        paths = Motions.from_arrays(
-            [f.path for f in found], fit.network.channels, fit.rate_hz, names=motions.names
-        )
-        paths.write(out)
+        paths = [f.path for f in found]
+        channels, rate_hz = fit.network.channels, fit.rate_hz
+        Motions.from_arrays(paths, channels, rate_hz, names=motions.names).write(out)
         console.print(f"Recognised motions: {out}")
 
 
@@ -84,13 +79,9 @@ def _recognised(
 ) -> list[RecognitionResult]:
     """Recognise motions one by one, padded to one length so that they share compiled code."""
     keys, size = jax.random.split(key, len(motions)), (1, max(motions.lengths))
-    shown = track(
-        list(zip(motions, keys, strict=True)),
-        "Recognising",
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
+    each = list(zip(motions, keys, strict=True))
+    off = not console.is_terminal
+    shown = track(each, "Recognising", console=console, transient=True, disable=off)
     return [recognise_all(fit, one, key=its, padded_to=size)[0] for one, its in shown]
 
 
@@ -106,13 +97,9 @@ def _table(
     ):
         there = mask[:, hidden]
         off = ((one.path - value) / motions.channels.spans)[:, hidden][there]
-        table.add_row(
-            name,
-            f"{one.error:.1%}",
-            f"{np.sqrt((off**2).mean()):.1%}" if len(off) else "–",
-            _nearest(fit, one),
-            one.status.ending.value,
-        )
+        missed = f"{np.sqrt((off**2).mean()):.1%}" if len(off) else "–"
+        verdict = one.status.ending.value
+        table.add_row(name, f"{one.error:.1%}", missed, _nearest(fit, one), verdict)
     return table
 
 

@@ -4,27 +4,18 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Argument, Option
 
 from motionese.interfaces.commands.exit_status import plainly
-from motionese.interfaces.commands.recording_options import as_read, with_recording_options
+from motionese.interfaces.commands.recording_options import FORMATS, as_read, with_recording_options
 
-PANEL = "Your own robot"
-
-Source = Annotated[Path, typer.Argument(metavar="SOURCE", help="A file or folder of recordings.")]
-
-
-def add_to(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
-    app.command("import", rich_help_panel=PANEL)(import_recordings)
-    app.command("inspect", rich_help_panel=PANEL)(inspect)
-    app.command("export", rich_help_panel=PANEL)(export)
+Source = Annotated[Path, Argument(metavar="SOURCE", help="A file or folder of recordings.")]
 
 
 @with_recording_options()
 def import_recordings(
     source: Source,
-    out: Annotated[Path, typer.Option(metavar="DATA.npz", help="The file to write.")],
+    out: Annotated[Path, Option(metavar="DATA.npz", help="The file to write.")],
     reading: dict[str, Any],
 ) -> None:
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
@@ -46,7 +37,7 @@ def inspect(
     source: Source,
     reading: dict[str, Any],
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE.svg|.png", help="The plot; default: NAME.svg here.")
+        Path | None, Option(metavar="FILE.svg|.png", help="The plot; default: NAME.svg here.")
     ] = None,
 ) -> None:
     """Show what is in recordings: episodes, lengths, rate, ranges, still shares, gaps, NaN."""
@@ -59,21 +50,13 @@ def inspect(
 
 
 def export(
-    source: Annotated[
-        Path, typer.Argument(metavar="MODEL|DATA", help="A trained model, or recordings.")
-    ],
-    onnx: Annotated[
-        Path | None, typer.Option(metavar="FILE.onnx", help="One step of the model.")
-    ] = None,
+    source: Annotated[Path, Argument(metavar="MODEL|DATA", help="A trained model, or recordings.")],
+    onnx: Annotated[Path | None, Option(metavar="FILE.onnx", help="One step of the model.")] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="PATH", help="The file or folder to write data to.")
+        Path | None, Option(metavar="PATH", help="The file or folder to write data to.")
     ] = None,
     to: Annotated[
-        str | None,
-        typer.Option(
-            metavar="csv|npz|eipl|robomimic|lerobot|mcap",
-            help="As what; else by the suffix of PATH.",
-        ),
+        str | None, Option(metavar=FORMATS, help="As what; else by the suffix of PATH.")
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""

@@ -1,42 +1,40 @@
 """Options that say how recordings are read, the same for every command that reads them."""
 
-import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import wraps
+from inspect import Parameter, Signature, signature
 from typing import Annotated, Any
 
-import typer
+from typer import Option
 
 from motionese.errors import SettingError
 
 PANEL = "How the recordings are read"
-TEXT, TEXTS, NUMBER = str | None, list[str] | None, float | None
+Text = str | None
+Texts = list[str] | None
+Number = float | None
 
 
-def _option(
-    name: str, metavar: str, help: str, kind: Any, default: Any = None
-) -> inspect.Parameter:
-    option = typer.Option(f"--{name}", metavar=metavar, help=help, rich_help_panel=PANEL)
-    return inspect.Parameter(
-        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
-    )
+def _option(name: str, metavar: str, help: str, kind: Any, default: Any = None) -> Parameter:
+    option = Annotated[kind, Option(f"--{name}", metavar=metavar, help=help, rich_help_panel=PANEL)]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 
 FORMATS = "csv|npz|eipl|robomimic|lerobot|mcap"
 STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
 OPTIONS = (
-    _option("channels", "PATTERN …", "Channels to take, in this order: 'arm_*'.", TEXTS),
-    _option("exclude", "PATTERN …", "Channels to leave out.", TEXTS),
-    _option("format", FORMATS, "What SOURCE is; else found out.", TEXT),
-    _option("episode", "COLUMN", "The column of a CSV that names the episode.", TEXT),
-    _option("time", "COLUMN", "The column of a CSV that is the time.", TEXT),
-    _option("rate", "HZ", "Rows a second, where the recording does not tell.", NUMBER),
-    _option("resample", "HZ", "Rows a second to resample to.", NUMBER),
+    _option("channels", "PATTERN …", "Channels to take, in this order: 'arm_*'.", Texts),
+    _option("exclude", "PATTERN …", "Channels to leave out.", Texts),
+    _option("format", FORMATS, "What SOURCE is; else found out.", Text),
+    _option("episode", "COLUMN", "The column of a CSV that names the episode.", Text),
+    _option("time", "COLUMN", "The column of a CSV that is the time.", Text),
+    _option("rate", "HZ", "Rows a second, where the recording does not tell.", Number),
+    _option("resample", "HZ", "Rows a second to resample to.", Number),
     _option("trim", "SHARE", STILL, float, 0.0),
     _option("nan", "refuse|gap", "What a NaN is: an error, or a gap.", str, "refuse"),
-    _option("unit", "PATTERN=UNIT …", "Units: 'arm_*=rad'.", TEXTS),
-    _option("range", "PATTERN=LOW:HIGH …", "Ranges; else the data's and a margin.", TEXTS),
-    _option("margin", "SHARE", "How far ranges reach beyond the data; 0.05.", NUMBER),
+    _option("unit", "PATTERN=UNIT …", "Units: 'arm_*=rad'.", Texts),
+    _option("range", "PATTERN=LOW:HIGH …", "Ranges; else the data's and a margin.", Texts),
+    _option("margin", "SHARE", "How far ranges reach beyond the data; 0.05.", Number),
 )
 
 Command = Callable[..., None]
@@ -54,9 +52,9 @@ def with_recording_options(*left_out: str) -> Callable[[Command], Command]:
         def called(**given: Any) -> None:
             command(reading={option.name: given.pop(option.name) for option in options}, **given)
 
-        own = inspect.signature(command).parameters.values()
+        own = signature(command).parameters.values()
         kept = [parameter for parameter in own if parameter.name != "reading"]
-        called.__signature__ = inspect.Signature([*kept, *options])  # type: ignore[attr-defined]
+        called.__signature__ = Signature([*kept, *options])  # type: ignore[attr-defined]
         return called
 
     return decorate
@@ -64,12 +62,12 @@ def with_recording_options(*left_out: str) -> Callable[[Command], Command]:
 
 def as_read(
     *,
-    channels: Sequence[str] | None,
-    exclude: Sequence[str] | None,
+    channels: Texts,
+    exclude: Texts,
     rate: float | None,
     resample: float | None = None,
-    unit: Sequence[str] | None = None,
-    range: Sequence[str] | None = None,
+    unit: Texts = None,
+    range: Texts = None,
     **others: Any,
 ) -> dict[str, Any]:
     """Return what is given for these options as `Motions.read` takes it."""
@@ -84,17 +82,17 @@ def as_read(
     }
 
 
-def separated(texts: Sequence[str] | None) -> tuple[str, ...]:
+def separated(texts: Texts) -> tuple[str, ...]:
     """Return the parts of texts that may hold several, with commas between them."""
     return tuple(part for text in texts or () for part in text.split(",") if part)
 
 
-def read_units(texts: Sequence[str] | None) -> dict[str, str]:
+def read_units(texts: Texts) -> dict[str, str]:
     """Return the units of texts such as 'arm_*=rad', by pattern."""
     return dict(_pair("--unit", text, "rad") for text in texts or ())
 
 
-def read_ranges(texts: Sequence[str] | None) -> dict[str, tuple[float, float]]:
+def read_ranges(texts: Texts) -> dict[str, tuple[float, float]]:
     """Return the ranges of texts such as 'arm_*=-1.5:1.5', by pattern."""
     ranges = {}
     for text in texts or ():
@@ -109,7 +107,7 @@ def read_ranges(texts: Sequence[str] | None) -> dict[str, tuple[float, float]]:
     return ranges
 
 
-def read_values(option: str, texts: Sequence[str] | None) -> dict[str, float]:
+def read_values(option: str, texts: Texts) -> dict[str, float]:
     """Return the numbers of texts such as 'shoulder=0.3', by name."""
     values = {}
     for text in separated(texts):

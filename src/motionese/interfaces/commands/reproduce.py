@@ -39,7 +39,6 @@ def reproduce(
         Why there was too little for a statistical test, or "".
 
     Raises:
-        MotioneseError: Anything asked for that does not exist or cannot be done.
         UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
     """
     settings = read_settings(preset, overrides, quick=quick)
@@ -48,24 +47,24 @@ def reproduce(
     chosen, numbers = read_conditions(conditions, settings), read_seeds(seeds)
     shown = _recorded(caregiver, scene)
     path = out or Path("runs") / (Path(preset).stem + ("-quick" if quick else ""))
+    say = console.print
     with open_run_folder(path, settings, preset, shown.digest if shown else "") as folder:
         runs = [folder.run(condition, seed) for seed in numbers for condition in chosen]
-        console.print(f"The report will be at {path / REPORT}")
+        say(f"The report will be at {path / REPORT}")
         names = ", ".join(c.name for c in chosen)
-        console.print(f"{len(runs)} runs: {names}, each with seeds {as_ranges(numbers)}")
+        say(f"{len(runs)} runs: {names}, each with seeds {as_ranges(numbers)}")
         if shown:
-            console.print(
-                f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted"
-            )
+            say(f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted")
         for change in folder.changed:
-            console.print(
-                f"This folder was begun with other versions ({change}): the bits may differ"
-            )
+            say(f"This folder was begun with other versions ({change}): the bits may differ")
         failures = _go_through(runs, settings, workers or CPU_COUNT, shown, console)
         if failures and not any(run.ended() for run in runs):
             raise UnfinishedRunsError("; ".join(failures))
         too_few = write_results(path, console)
-    _tell_of_diverged(runs, console)
+    diverged = [run.name for run in runs if (run.ended() or {}).get("status") == "diverged"]
+    if diverged:
+        names = ", ".join(diverged)
+        say(f"{len(diverged)} of {len(runs)} runs diverged: {names}; see the report")
     if failures:
         raise UnfinishedRunsError("; ".join(failures))
     return too_few
@@ -82,11 +81,7 @@ def _recorded(caregiver: str, scene: Scene) -> Recorded | None:
 
 
 def _go_through(
-    runs: Sequence[Run],
-    settings: Study,
-    workers: int,
-    shown: Recorded | None,
-    console: Console,
+    runs: Sequence[Run], settings: Study, workers: int, shown: Recorded | None, console: Console
 ) -> list[str]:
     left = [run for run in runs if not run.ended()]
     loops = settings.most_loops()
@@ -96,9 +91,8 @@ def _go_through(
     if not left:
         return []
     workers = min(workers, len(left))
-    console.print(
-        f"{loops} loops a run, {workers} at a time; Ctrl-C stops, the same command goes on"
-    )
+    stops = "Ctrl-C stops, the same command goes on"
+    console.print(f"{loops} loops a run, {workers} at a time; {stops}")
     with Display(console, runs, loops) as display:
         return go_through_all(
             left,
@@ -107,12 +101,4 @@ def _go_through(
             recordings=shown.recordings if shown else None,
             loop_done=display.loop_done,
             run_ended=display.run_ended,
-        )
-
-
-def _tell_of_diverged(runs: Sequence[Run], console: Console) -> None:
-    diverged = [run.name for run in runs if (run.ended() or {}).get("status") == "diverged"]
-    if diverged:
-        console.print(
-            f"{len(diverged)} of {len(runs)} runs diverged: {', '.join(diverged)}; see the report"
         )

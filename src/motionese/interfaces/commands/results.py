@@ -39,9 +39,7 @@ def write_results(folder: Path, console: Console) -> str:
 def summary(folder: Path, study: Study) -> Table:
     """Return imitation errors [cm], median over seeds, and what was achieved in the last loop.
 
-    Args:
-        folder: Where `loops.csv` and the tables of new sequences are.
-        study: The settings of its runs.
+    They are made of `loops.csv` and the tables of new sequences in a folder of such runs.
     """
     import pandas as pd
 
@@ -50,13 +48,10 @@ def summary(folder: Path, study: Study) -> Table:
     novel = {name: folder / f"{name}.csv" for name in task.novel}
     tables = {name: pd.read_csv(path) for name, path in novel.items() if path.is_file()}
     stages = range(1, len(study.stages) + 1)
-    columns = (
-        "loop 1",
-        *(f"stage {n}" for n in stages),
-        *(f"new {name.removeprefix('new_')}" for name in tables),
-    )
+    columns = [f"stage {n}" for n in stages]
+    columns += [f"new {name.removeprefix('new_')}" for name in tables]
     outcome = task.outcomes[0]
-    table = Table("condition", "seeds", *columns, f"{outcome.title}, last loop")
+    table = Table("condition", "seeds", "loop 1", *columns, f"{outcome.title}, last loop")
     table.title = (
         "Imitation error [cm] in loop 1, in the last loop of every stage, and of new sequences; "
         "mean over motions, median over seeds"
@@ -69,20 +64,12 @@ def summary(folder: Path, study: Study) -> Table:
             continue
         errors = [_centimetres(own[own["loop"] == 1])]
         errors += [_centimetres(_last_loop(own[own["phase"] == n])) for n in stages]
-        errors += [_centimetres(_untrained(t, condition.name)) for t in tables.values()]
-        table.add_row(
-            condition.name,
-            str(own["seed"].nunique()),
-            *errors,
-            _achieved(_last_loop(own), outcome),
-        )
+        for rows in tables.values():
+            untrained = ~rows["trained"].astype(bool)
+            errors.append(_centimetres(rows[untrained & (rows["condition"] == condition.name)]))
+        seeds, achieved = str(own["seed"].nunique()), _achieved(_last_loop(own), outcome)
+        table.add_row(condition.name, seeds, *errors, achieved)
     return table
-
-
-def _untrained(rows: "pd.DataFrame", condition: str) -> "pd.DataFrame":
-    """Return the sequences of a condition that its runs were not taught."""
-    own = rows[rows["condition"] == condition]
-    return own[~own["trained"].astype(bool)]
 
 
 def _last_loop(rows: "pd.DataFrame") -> "pd.DataFrame":

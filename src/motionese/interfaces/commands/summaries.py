@@ -28,15 +28,13 @@ def number_table(*headings: str) -> Table:
 def error_table(fit: Fit) -> Table:
     """Return the root mean squared errors by channel, in its unit and as a share of its range."""
     assert fit.network.channels is not None, "a trained network carries channels"
-    errors = [fit.teacher_forced_error, fit.closed_loop_error]
-    headings = ["channel", "unit", "teacher-forced", "closed loop"]
+    errors = {"teacher-forced": fit.teacher_forced_error, "closed loop": fit.closed_loop_error}
     if len(fit.validation_error):
-        errors.append(fit.validation_error)
-        headings.append("held out")
-    table = number_table(*headings)
+        errors["held out"] = fit.validation_error
+    table = number_table("channel", "unit", *errors)
     for i, channel in enumerate(fit.network.channels):
-        span = channel.high - channel.low
-        told = [f"{_rms(e[:, i]):.3g} ({_rms(e[:, i]) / span:.1%})" for e in errors]
+        found = [_rms(e[:, i]) for e in errors.values()]
+        told = [f"{error:.3g} ({error / (channel.high - channel.low):.1%})" for error in found]
         table.add_row(channel.name, channel.unit or "–", *told)
     return table
 
@@ -53,16 +51,15 @@ def verdict(fit: Fit) -> str:
         f"closed loop {closed:.1%} (worst motion '{fit.names[which]}' {worst[which]:.1%})"
     ]
     if len(fit.validation_error):
-        parts.append(
-            f"held-out motions {fit.share(fit.validation_error):.1%}, recognised, in closed loop"
-        )
+        unseen = fit.share(fit.validation_error)
+        parts.append(f"held-out motions {unseen:.1%}, recognised, in closed loop")
     told = "; ".join(parts) + "."
     if closed > POOR:
-        return (
-            f"{told} On a robot these motions would not be recognisable: "
-            "train longer, or with more units."
-        )
-    return told if closed <= GOOD else f"{told} Closed-loop errors above {GOOD:.0%} can be seen."
+        told += " On a robot these motions would not be recognisable: "
+        told += "train longer, or with more units."
+    elif closed > GOOD:
+        told += f" Closed-loop errors above {GOOD:.0%} can be seen."
+    return told
 
 
 def _rms(errors: np.ndarray) -> float:
@@ -80,12 +77,9 @@ def reach(channels: Channels) -> tuple[Float[ndarray, " D"], Float[ndarray, " D"
 def share_beyond(motions: Motions) -> float:
     """Return the share of what was observed that is clipped, as the ranges are too narrow."""
     lowest, highest = reach(motions.channels)
-    clipped = [
-        mask & ((values < lowest) | (values > highest))
-        for values, mask in zip(motions.values, motions.observed, strict=True)
-    ]
-    seen = sum(int(mask.sum()) for mask in motions.observed)
-    return sum(int(cells.sum()) for cells in clipped) / max(seen, 1)
+    values, seen = np.concatenate(motions.values), np.concatenate(motions.observed)
+    clipped = seen & ((values < lowest) | (values > highest))
+    return int(clipped.sum()) / max(int(seen.sum()), 1)
 
 
 def description(motions: Motions) -> str:
@@ -94,8 +88,7 @@ def description(motions: Motions) -> str:
     rows = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
     count = f"{len(motions)} motion{'' if len(motions) == 1 else 's'}"
     width = len(motions.channels)
-    seen = sum(int(mask.sum()) for mask in motions.observed)
-    gaps, beyond = 1 - seen / (sum(motions.lengths) * width), share_beyond(motions)
+    gaps, beyond = 1 - np.concatenate(motions.observed).mean(), share_beyond(motions)
     return (
         f"{count} of {rows} rows at {motions.rate_hz:g} Hz, "
         f"{width} channel{'' if width == 1 else 's'}"

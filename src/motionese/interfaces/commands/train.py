@@ -1,6 +1,7 @@
 """Recordings in, a trained model out."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -43,17 +44,12 @@ def train_model(
     Everything is checked before anything is written.
 
     Args:
-        console: Where it is told.
-        source: The recordings.
-        out: The model's file.
         levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first.
         io_tau: Time constant of the IO level [steps].
         held_out: A share of the motions or their names, as in '0.2' or 'wave,lift'; see `split`.
         seed: Of the initial weights, the held-out motions and the state noise.
-        resume: Whether to go on with a training that was stopped.
-        settings: How to train.
-        logs: Kinds of logs, see `logs.open_logs`.
-        reading: How, as `Motions.read` takes it.
+        logs: Kinds of logs, see `open_logs`.
+        reading: How `source` is read, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
     context = read_levels(levels)
@@ -95,10 +91,7 @@ def train_model(
 
 
 def read_levels(levels: str | Sequence[tuple[int, float]]) -> list[Level]:
-    """Return the context levels that a text such as `40:5,8:70` or pairs (size, τ) stand for.
-
-    Args:
-        levels: Size and time constant [steps] of every context level, from the fast one upwards.
+    """Return the context levels that `40:5,8:70` or pairs (size, τ [steps]) stand for, fast first.
 
     Raises:
         SettingError: The text is not of that form, or a level cannot have such a size or τ.
@@ -122,11 +115,8 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
     Raises:
         SettingError: A setting that does not exist, or a value that is not allowed.
     """
-    given: dict[str, Any] = {
-        name: value
-        for name, value in (("epochs", epochs), ("patience", patience))
-        if value is not None
-    }
+    own = {"epochs": epochs, "patience": patience}
+    given: dict[str, Any] = {name: value for name, value in own.items() if value is not None}
     for text in overrides:
         name, _, told = text.partition("=")
         if name not in Training.model_fields:
@@ -147,12 +137,10 @@ def read_held_out(text: str | None, motions: Motions) -> float | list[str] | Non
     """Return the share or the names that a text is; below 1 a number is always a share."""
     if text is None:
         return None
-    try:
+    with suppress(ValueError):
         share = float(text)
-    except ValueError:
-        share = None
-    if share is not None and (0 <= share < 1 or text not in motions.names):
-        return share
+        if 0 <= share < 1 or text not in motions.names:
+            return share
     return [name.strip() for name in text.split(",")]
 
 

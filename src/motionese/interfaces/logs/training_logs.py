@@ -7,6 +7,7 @@ returns (TensorBoard's within a second), so that a training that is killed leave
 
 import json
 import math
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from functools import partial
@@ -14,9 +15,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from motionese.errors import SettingError, needs, unknown
+from motionese.errors import SettingError, StorageError, needs, unknown
 from motionese.files import write_whole
-from motionese.interfaces.logs.rerun_log import Rerun
 
 
 @runtime_checkable
@@ -30,14 +30,15 @@ class Log(Protocol):
         """Finish the log; nothing is written to it afterwards."""
 
 
-class Logs:
-    """Several logs written side by side; a context manager that closes them.
+class Logs(ExitStack):
+    """Several logs written side by side; a context manager that closes them all.
 
     They are opened with the first numbers: a training that is refused leaves none, and none of a
     training before it is lost.
     """
 
     def __init__(self, openers: Sequence[Callable[[], Log]]) -> None:
+        super().__init__()
         self._openers = list(openers)
         self._logs: list[Log] = []
 
@@ -48,21 +49,11 @@ class Logs:
             StorageError: A log that cannot be gone on with.
         """
         while self._openers:
-            self._logs.append(self._openers.pop(0)())
+            log = self._openers.pop(0)()
+            self.callback(log.close)
+            self._logs.append(log)
         for log in self._logs:
             log.write(epoch, numbers)
-
-    def close(self) -> None:
-        """Finish every log, whatever happens to another."""
-        with ExitStack() as closing:
-            for log in self._logs:
-                closing.callback(log.close)
-
-    def __enter__(self) -> "Logs":
-        return self
-
-    def __exit__(self, *left: object) -> None:
-        self.close()
 
 
 def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
@@ -81,9 +72,12 @@ def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
     for kind in kinds:
         if kind not in _OPENERS:
             raise SettingError(unknown("log", kind, _OPENERS))
-    for kind in kinds:
-        if kind in _PACKAGES:
-            _import(*_PACKAGES[kind], kind)
+    for kind in [each for each in kinds if each in _PACKAGES]:
+        module, package = _PACKAGES[kind]
+        try:
+            import_module(module)
+        except ImportError as error:
+            raise needs(package, kind, f"the log '{kind}'") from error
     return Logs([partial(_OPENERS[kind], out, after) for kind in dict.fromkeys(kinds)])
 
 
@@ -143,6 +137,57 @@ class TensorBoard:
         self._writer.close()
 
 
+class Rerun:
+    """Scalars by name on the timeline `epoch` of a Rerun recording; no viewer is started."""
+
+    def __init__(self, out: Path, after: int) -> None:
+        path = out.with_suffix(".rrd")
+        # A recording cannot be appended to: what it holds is read, and written to the new one.
+        before = _scalars_until(path, after) if after and path.exists() else []
+        self._rerun = import_module("rerun")
+        self._stream = self._rerun.RecordingStream("motionese")
+        self._stream.save(path)
+        self._stream.send_recording_name(out.stem)
+        for epoch, name, number in before:
+            self._log(epoch, name, number)
+        self._stream.flush()
+
+    def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
+        """Write one scalar a number at the epoch."""
+        for name, number in numbers.items():
+            self._log(epoch, name, number)
+        self._stream.flush()
+
+    def close(self) -> None:
+        """Finish the recording."""
+        self._stream.disconnect()
+
+    def _log(self, epoch: int, name: str, number: float) -> None:
+        self._stream.set_time("epoch", sequence=epoch)
+        self._stream.log(name, self._rerun.Scalars(number))
+
+
+def _scalars_until(path: Path, epoch: int) -> list[tuple[int, str, float]]:
+    """Return epoch, name and number of all scalars in a recording up to an epoch."""
+    try:
+        with warnings.catch_warnings():
+            # A training that was killed leaves a recording without its last part, an index.
+            warnings.simplefilter("ignore")
+            chunks = list(import_module("rerun.chunk").RrdReader(path).stream())
+    except RuntimeError as error:
+        raise StorageError(
+            f"{path}: this log cannot be read and gone on with ({error}); move it away"
+        ) from error
+    scalars = []
+    for chunk in chunks:
+        if "epoch" in chunk.timeline_names:
+            rows = chunk.to_record_batch()
+            columns = (rows.column(of).to_pylist() for of in ("epoch", "Scalars:scalars"))
+            name = chunk.entity_path.removeprefix("/")
+            scalars += [(at, name, n) for at, (n,) in zip(*columns, strict=True) if at <= epoch]
+    return scalars
+
+
 _OPENERS: dict[str, Callable[[Path, int], Log]] = {
     "jsonl": JsonLines,
     "tensorboard": TensorBoard,
@@ -151,10 +196,3 @@ _OPENERS: dict[str, Callable[[Path, int], Log]] = {
 
 _PACKAGES = {"tensorboard": ("tensorboardX", "tensorboardX"), "rerun": ("rerun", "rerun-sdk")}
 """The module that a kind imports and the package that brings it; its extra is called as it is."""
-
-
-def _import(module: str, package: str, kind: str) -> None:
-    try:
-        import_module(module)
-    except ImportError as error:
-        raise needs(package, kind, f"the log '{kind}'") from error

@@ -72,10 +72,9 @@ class Admission:
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._known_host(host):
             return "this name is not one of the server's"
-        if origin is None:
-            if socket:
-                return "a connection must tell its origin"
-        elif origin not in (f"http://{host}", f"https://{host}"):
+        if origin is None and socket:
+            return "a connection must tell its origin"
+        if origin is not None and origin not in (f"http://{host}", f"https://{host}"):
             return "pages of other sites are not let in"
         if self.token and not hmac.compare_digest(token.encode(), self.token.encode()):
             return "the token is missing or wrong: open the address that the command printed"
@@ -90,23 +89,21 @@ class Admission:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
             return False
-        if name in LOCAL or name == self.host:
-            return True
-        try:
-            ipaddress.ip_address(name)
-        except ValueError:
-            return False
-        return not is_local(self.host)
+        others_come = not is_local(self.host)
+        return name in (*LOCAL, self.host) or (others_come and _address(name) is not None)
 
 
 def is_local(host: str) -> bool:
     """Whether an address can be reached from this machine alone."""
-    if host == "localhost":
-        return True
+    address = _address(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
     try:
-        return ipaddress.ip_address(host).is_loopback
+        return ipaddress.ip_address(host)
     except ValueError:
-        return False
+        return None
 
 
 class Gate:

@@ -21,13 +21,9 @@ EXPORT = "demonstrations.npz"
 def application(
     hub: Hub, admission: Admission, session: Path, begun: Callable[[], None] = lambda: None
 ) -> Starlette:
-    """Return the server of one teaching session.
+    """Return the server of one teaching session, kept in a folder by the robot's process.
 
-    Args:
-        hub: The session.
-        admission: Who is let in.
-        session: The folder in which the robot's process keeps what it was shown.
-        begun: Called when the server is about to answer.
+    `begun` is called when the server is about to answer.
     """
 
     @contextlib.asynccontextmanager

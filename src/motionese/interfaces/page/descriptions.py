@@ -1,7 +1,7 @@
 """What the page is told: the messages of the robot's process, made of what it knows."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy import ndarray
 from motionese.body import Geometry
 from motionese.caregiver import intended_way
 from motionese.imitation import Scene
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
@@ -28,20 +28,15 @@ PART_S = 0.2
 
 def scene_message(scene: Scene, view: View, geometry: Geometry) -> Answer:
     """Return what does not change in a session: the view, the robot's shapes, the task."""
-    right, up, ahead = view.axes
     task, body = scene.task, scene.body
+    camera = {
+        "position": listed(body.eye_position),
+        **dict(zip(("right", "up", "ahead"), listed(view.axes), strict=True)),
+        "fov_y_deg": round(float(np.degrees(view.height)), 2),
+    }
     return {
         "type": "scene",
-        "view": {
-            "aspect": ASPECT,
-            "camera": {
-                "position": listed(body.eye_position),
-                "right": listed(right),
-                "up": listed(up),
-                "ahead": listed(ahead),
-                "fov_y_deg": round(float(np.degrees(view.height)), 2),
-            },
-        },
+        "view": {"aspect": ASPECT, "camera": camera},
         "robot": {
             "bodies": geometry.bodies,
             "geoms": geometry.shapes,
@@ -100,11 +95,12 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
         }
         for entry in notebook.entries
     ]
-    last = f"{notebook.curve[-1]:.1f} cm" if notebook.curve else ""
-    suggestion = (
-        f"Learning has settled (the last error was {last}): let the network grow a slow level, "
-        "and show sequences."
-    )
+    suggestion = ""
+    if teaching.should_grow:
+        suggestion = (
+            f"Learning has settled (the last error was {notebook.curve[-1]:.1f} cm): let the "
+            "network grow a slow level, and show sequences."
+        )
     return {
         "type": "session",
         "id": name,
@@ -112,13 +108,11 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
         "phase": len(levels) - 1,
         "levels": [level.name for level in levels],
         "notebook": entries,
-        "curve": [
-            {"n": n, "error_cm": round(error, 2)} for n, error in enumerate(notebook.curve, start=1)
-        ],
+        "curve": [{"n": n, "error_cm": round(e, 2)} for n, e in enumerate(notebook.curve, 1)],
         "can_grow": teaching.can_grow,
         "can_map": InteractiveMap.possible(teaching),
         "shown": teaching.observed.entry.number if teaching.observed else None,
-        "suggest": suggestion if teaching.should_grow else "",
+        "suggest": suggestion,
         "busy": busy,
     }
 
@@ -129,8 +123,8 @@ def verdict_message(observed: Observation, view: View, seconds: float) -> Answer
     return {
         "type": "verdict",
         "entry": observed.entry.number,
-        "motion": named(verdict.recognised),
-        "shown": named(verdict.shown),
+        "motion": verdict.recognised.name if verdict.recognised else "",
+        "shown": verdict.shown.name if verdict.shown else "",
         "confidence": round(verdict.confidence, DIGITS),
         "alternatives": [
             {"motion": sequence.name, "confidence": round(confidence, DIGITS)}
@@ -145,12 +139,10 @@ def verdict_message(observed: Observation, view: View, seconds: float) -> Answer
     }
 
 
-def shown_message(
-    sequence: PrimitiveSequence, seen: Float[ndarray, "T 2"], step_ms: float
-) -> Answer:
-    """Return how the scripted caregiver shows a sequence, seen in the view."""
+def shown_message(motion: str, seen: Float[ndarray, "T 2"], step_ms: float) -> Answer:
+    """Return how the scripted caregiver shows a motion, seen in the view."""
     path = [[round(step_ms * row), *place] for row, place in enumerate(listed(seen))]
-    return {"type": "shown", "motion": sequence.name, "path": path}
+    return {"type": "shown", "motion": motion, "path": path}
 
 
 def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -> Answer:
@@ -166,7 +158,7 @@ def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -
     }
 
 
-def frames_message(played: Film, tell: Callable[[Answer], None]) -> Iterator[float]:
+def frames_message(played: Film, tell: Tell) -> Iterator[float]:
     """Send a film part by part; yields how long [s] to wait before the next."""
     size = round(PART_S * played.rate_hz)
     began = time.monotonic()
@@ -198,34 +190,17 @@ def grown_message(changes: Sequence[Change], network: MTRNN) -> Answer:
     }
 
 
-def progress_message(what: str, done: int, of: int, now: Progress | None = None) -> Answer:
+def progress_message(what: str, done: int, of: int, now: Progress) -> Answer:
     """Return how far something is."""
-    told: Answer = {"type": "progress", "what": what, "done": done, "of": of}
-    if now is not None:
-        told |= {"loss": round(now.loss, DIGITS), "error_share": round(now.closed_loop_error, 5)}
-    return told
+    good = {"loss": round(now.loss, DIGITS), "error_share": round(now.closed_loop_error, 5)}
+    return {"type": "progress", "what": what, "done": done, "of": of, **good}
 
 
 def map_message(drawn: InteractiveMap) -> Answer:
     """Return the map of the slow initial states."""
     points = [{"motion": motion, "slow": slow} for motion, slow in drawn.points]
-    return {
-        "type": "map",
-        "level": drawn.level,
-        "axis": drawn.axis,
-        "primitives": drawn.grids,
-        "points": points,
-    }
-
-
-def sentence_message(kind: str, sentence: str) -> Answer:
-    """Return a sentence for the person: a hint, a refusal or an error."""
-    return {"type": "told", "kind": kind, "sentence": sentence}
-
-
-def named(sequence: PrimitiveSequence | None) -> str:
-    """Return a sequence's name; empty if there is none."""
-    return sequence.name if sequence else ""
+    places = {"axis": drawn.axis, "primitives": drawn.grids, "points": points}
+    return {"type": "map", "level": drawn.level, **places}
 
 
 def listed(values: Float[ndarray, "*shape"]) -> list[Any]:

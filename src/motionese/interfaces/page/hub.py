@@ -10,17 +10,18 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from motionese.interfaces.page.messages import (
     Answer,
     Hello,
+    Message,
     Pace,
     Pen,
     RefusedError,
     Strokes,
+    Tell,
     understood,
     worker_message,
 )
-from motionese.interfaces.page.messages import Message as Said
 from motionese.interfaces.page.supervisor import Supervisor
 
-POLICY = 1008
+POLICY, MOST_WAITING = 1008, 4096
 KEPT = ("scene", "session", "map")
 """What a page is told when it comes: the last of each."""
 OUTDATING = ("learned", "grown", "begun")
@@ -32,16 +33,9 @@ class Hub:
     """Passes messages between one page and the worker."""
 
     def __init__(
-        self,
-        supervised: Callable[[Callable[[Answer], None]], Supervisor],
-        refused: Callable[[str], None],
+        self, supervised: Callable[[Tell], Supervisor], refused: Callable[[str], None]
     ) -> None:
-        """Prepare.
-
-        Args:
-            supervised: Makes the supervisor that tells the given function.
-            refused: Called with why the robot cannot begin.
-        """
+        """Take what makes a supervisor that tells a function; `refused` is told why none begins."""
         self._refused = refused
         self._supervisor = supervised(self._told)
         self._owner: Visit | None = None
@@ -112,16 +106,14 @@ class Hub:
             if kind in self._last:
                 visit.tell(self._last[kind])
 
-    def _pass_on(self, visit: "Visit", message: Said) -> None:
+    def _pass_on(self, visit: "Visit", message: Message) -> None:
         if isinstance(message, Pen):
             visit.strokes.check(message)
-        said = message.model_dump(by_alias=True)
-        if self.worker["state"] not in ("ready", "starting"):
-            if isinstance(message, Pen) and message.phase != "down":
-                return
+        if self.worker["state"] in ("ready", "starting"):
+            said = message.model_dump(by_alias=True)
+            self._supervisor.say({**said, "received": time.monotonic()})
+        elif not isinstance(message, Pen) or message.phase == "down":
             visit.tell({"type": "told", "kind": "hint", "sentence": self.worker["sentence"]})
-            return
-        self._supervisor.say({**said, "received": time.monotonic()})
 
     def _told(self, message: Answer) -> None:
         """Take a message of the worker's."""
@@ -166,6 +158,3 @@ class Visit:
         short = reason.encode()[:120].decode(errors="ignore")
         with suppress(WebSocketDisconnect, RuntimeError):
             await self.socket.close(POLICY, short)
-
-
-MOST_WAITING = 4096

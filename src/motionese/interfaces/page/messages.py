@@ -5,6 +5,7 @@ and robot's process share this file: nothing heavy is imported here.
 """
 
 import time
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
@@ -99,9 +100,8 @@ def understood(text: str) -> Message:
     except ValidationError as error:
         first = error.errors(include_input=False, include_url=False)[0]
         where = ".".join(str(part) for part in first["loc"][1:])
-        raise RefusedError(
-            f"malformed message: {where} {first['msg']}".replace("  ", " ")
-        ) from None
+        reason = f"malformed message: {where} {first['msg']}".replace("  ", " ")
+        raise RefusedError(reason) from None
 
 
 class Pace:
@@ -144,6 +144,7 @@ class Strokes:
 
 Answer = dict[str, Any]
 """A message to the page."""
+Tell = Callable[[Answer], None]
 State = Literal["starting", "ready", "restarted", "failed"]
 
 

@@ -1,15 +1,16 @@
 """The pen: a drawing as it comes, and what the robot understands of it meanwhile."""
 
 import time
-from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.caregiver import Demonstration, sequence_in
+from motionese.imitation import path_error_cm
 from motionese.interfaces.page.descriptions import listed
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Tell
 from motionese.teaching.drawing import Drawing, DrawingError, at_tempo
 from motionese.teaching.notebook import Source
 from motionese.teaching.recogniser import Interpretation, start_of
@@ -24,11 +25,11 @@ EVERY_S = 0.1
 class Pen:
     """One drawing at a time."""
 
-    def __init__(self, teaching: Teaching, view: View, tell: Callable[[Answer], None]) -> None:
+    def __init__(self, teaching: Teaching, view: View, tell: Tell) -> None:
         """Draw in a view, for a robot; `tell` gets what it understands."""
         self._teaching, self._view, self._tell = teaching, view, tell
         self._drawing: Drawing | None = None
-        self._source: Source = "drawn"
+        self.source: Source = "drawn"
         self._new, self._told_at = False, 0.0
         self._name = ""
         self.understood: Interpretation | None = None
@@ -38,14 +39,9 @@ class Pen:
         """Whether something is being drawn."""
         return self._drawing is not None
 
-    @property
-    def source(self) -> Source:
-        """Who draws."""
-        return self._source
-
     def set_down(self, source: Source) -> None:
         """Begin a drawing."""
-        self._drawing, self._source = Drawing(), source
+        self._drawing, self.source = Drawing(), source
         self.begin()
 
     def begin(self) -> None:
@@ -74,11 +70,8 @@ class Pen:
         drawing = self._drawing
         if drawing is None or len(drawing) < 2:
             return
-        try:
-            path = self._shown(drawing)[0]
-        except DrawingError:
-            return
-        self.tell_understood(path, round(1000 * drawing.seconds))
+        with suppress(DrawingError):
+            self.tell_understood(self._shown(drawing)[0], round(1000 * drawing.seconds))
 
     def tell_understood(self, path: Float[ndarray, "T 3"], milliseconds: int) -> None:
         """Tell what the robot understands of a path [m, world] so far."""
@@ -88,7 +81,7 @@ class Pen:
         if understood is None:
             return
         self.understood = understood
-        apart = 100 * float(np.linalg.norm(understood.path - watched.path, axis=1).mean())
+        apart = path_error_cm(understood.path, watched.path)
         # In the middle of a primitive a path is no sequence: what was completed before stands.
         task = teaching.scene.task
         sequence = sequence_in(understood.path, task)

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from jaxtyping import Float
 from numpy import ndarray
@@ -14,18 +14,19 @@ from motionese.experiment import read_settings
 from motionese.experiment.learned_robot import robot_of
 from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
-from motionese.interfaces.page.descriptions import frames_message
-from motionese.interfaces.page.messages import Answer
+from motionese.interfaces.page.messages import Tell
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
 from motionese.teaching.drawing import DrawingError, most_rows
 from motionese.teaching.frames import film
 from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.notebook import Source
-from motionese.teaching.session import Teaching, Trial
+from motionese.teaching.practice import Report
+from motionese.teaching.session import Teaching
 from motionese.teaching.session_folder import FRESH, SessionFolder
 from motionese.teaching.view import View
 
+T = TypeVar("T")
 GHOST_S = 0.2
 """While the scripted caregiver shows, what is understood is told this often."""
 NOTHING_SHOWN = "Show me a motion first: draw one, or let the caregiver show one."
@@ -35,7 +36,7 @@ def open_session(folder: SessionFolder, begin: str) -> Teaching:
     """Return the session of a folder, or one that begins there.
 
     Args:
-        folder: The folder.
+        folder: Where it is kept.
         begin: "babbling", "fresh" or the path of a run; empty for what is there, or babbling.
 
     Raises:
@@ -55,18 +56,10 @@ class StoppedError(Exception):
 
 
 class Robot:
-    """Does one thing after the other; what takes time is a generator that yields waiting times.
-
-    Attributes:
-        going: What is under way, or None.
-    """
+    """Does one thing after the other; `going` is what is under way and yields waiting times [s]."""
 
     def __init__(
-        self,
-        folder: SessionFolder,
-        teaching: Teaching,
-        tell: Callable[[Answer], None],
-        stop_asked: Callable[[], bool],
+        self, folder: SessionFolder, teaching: Teaching, tell: Tell, stop_asked: Callable[[], bool]
     ) -> None:
         """Serve a session; `stop_asked` says, while the network learns, whether to stop."""
         self._folder, self._tell, self._stop_asked = folder, tell, stop_asked
@@ -74,13 +67,12 @@ class Robot:
         self._view, self._geometry = View(body, teaching.scene.task), Geometry(body.model)
         self.going: Iterator[float] | None = None
         self._busy = ""
-        self._map: InteractiveMap | None = None
         self._become(teaching)
 
     def _become(self, teaching: Teaching) -> None:
         self.teaching = teaching
         self.pen = Pen(teaching, self._view, self._tell)
-        self._map = None
+        self._map: InteractiveMap | None = None
 
     def introduce(self) -> None:
         """Tell what the page needs to begin with."""
@@ -99,29 +91,26 @@ class Robot:
     def take(self, message: dict[str, Any]) -> None:
         """Do what a message says, or begin to."""
         kind = message["type"]
-        if kind == "pen":
-            self._draw(message)
-        elif kind == "stop":
+        if kind == "stop":
             self._end()
         elif kind == "left":
             self.pen.lift()
         elif kind == "hover":
             self._hover(message)
-        elif self._busy:
+        elif self._busy and (kind != "pen" or message["phase"] == "down"):
             self._hint(f"I am {self._busy}; wait a moment, or stop me.")
+        elif kind == "pen":
+            self._draw(message)
         else:
-            self.going = self._begun(kind)(message)
-
-    def _begun(self, kind: str) -> Callable[[dict[str, Any]], Iterator[float]]:
-        return {
-            "demonstrate": self._demonstrate,
-            "imitate": self._imitate,
-            "learn": self._learn,
-            "forget": self._forget,
-            "grow": self._grow,
-            "map": self._draw_map,
-            "begin": self._begin,
-        }[kind]
+            self.going = {
+                "demonstrate": self._demonstrate,
+                "imitate": self._imitate,
+                "learn": self._learn,
+                "forget": self._forget,
+                "grow": self._grow,
+                "map": self._draw_map,
+                "begin": self._begin,
+            }[kind](message)
 
     def go_on(self) -> float | None:
         """Go on with what is under way; return how long to wait before it goes on, or None."""
@@ -130,13 +119,12 @@ class Robot:
         try:
             return next(self.going)
         except StopIteration:
-            self._end()
+            pass
         except StoppedError:
             self._hint("Stopped: I am as I was before.")
-            self._end()
         except MotioneseError as error:
-            self._tell(descriptions.sentence_message("error", str(error)))
-            self._end()
+            self._hint(str(error), "error")
+        self._end()
         return None
 
     def _end(self) -> None:
@@ -144,14 +132,11 @@ class Robot:
         if self._busy:
             self.tell_session("")
 
-    def _hint(self, sentence: str) -> None:
-        self._tell(descriptions.sentence_message("hint", sentence))
+    def _hint(self, sentence: str, kind: str = "hint") -> None:
+        self._tell({"type": "told", "kind": kind, "sentence": sentence})
 
     def _draw(self, message: dict[str, Any]) -> None:
         if message["phase"] == "down":
-            if self._busy:
-                self._hint(f"I am {self._busy}; wait a moment, or stop me.")
-                return
             self.pen.set_down(message["source"])
         self.pen.move(message["points"])
         if message["phase"] == "up" and self.pen.down:
@@ -162,19 +147,15 @@ class Robot:
             except DrawingError as error:
                 hint = str(error)
             except MotioneseError as error:
-                self._tell(descriptions.sentence_message("error", str(error)))
+                self._hint(str(error), "error")
             if hint:
                 self._hint(hint)
 
     def _show(
-        self,
-        path: Float[ndarray, "T 3"],
-        drawn: Float[ndarray, "R 3"],
-        source: Source,
-        ended: float,
+        self, path: Float[ndarray, "T 3"], drawn: Float[ndarray, "R 3"], source: Source, end: float
     ) -> None:
         observed = self.teaching.show(path, source, drawn, self.pen.understood)
-        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - ended))
+        self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - end))
         self._save()
 
     def _save(self) -> None:
@@ -189,13 +170,13 @@ class Robot:
             if manner.rows(sequence) > most_rows(manner):
                 raise TaskError(f"{sequence.name} is too long to be shown")
         except TaskError as error:
-            self._tell(descriptions.sentence_message("refusal", str(error)))
+            self._hint(str(error), "refusal")
             return
         self.tell_session("demonstrating")
         rng = generator_for(scene.seed, "shown", self.teaching.notebook.next)
         path = scene.caregiver().demonstrate(sequence, rng).path
         step = 1000 / scene.body.rate_hz
-        self._tell(descriptions.shown_message(sequence, self._view.of_points(path), step))
+        self._tell(descriptions.shown_message(sequence.name, self._view.of_points(path), step))
         self.pen.lift()
         self.pen.begin()
         rows = round(GHOST_S * scene.body.rate_hz)
@@ -206,22 +187,19 @@ class Robot:
         self._show(path, path, "scripted", time.monotonic())
 
     def _imitate(self, message: dict[str, Any]) -> Iterator[float]:
-        if self.teaching.observed is None:
+        teaching = self.teaching
+        if teaching.observed is None:
             self._hint(NOTHING_SHOWN)
             return
         self.tell_session("performing")
-        yield from self._perform(self.teaching.imitate())
-
-    def _perform(self, trial: Trial) -> Iterator[float]:
-        teaching = self.teaching
-        observed = teaching.observed
-        assert observed is not None, "only what was shown is imitated"
+        trial = teaching.imitate()
+        entry = teaching.observed.entry
         self._save()
         network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
         played = film(self._geometry, network, trial.performance, rate_hz)
-        yield from frames_message(played, self._tell)
+        yield from descriptions.frames_message(played, self._tell)
         path = self._view.of_points(trial.performance.path)
-        self._tell(descriptions.performed_message(observed.entry, trial, path))
+        self._tell(descriptions.performed_message(entry, trial, path))
 
     def _learn(self, message: dict[str, Any]) -> Iterator[float]:
         observed = self.teaching.observed
@@ -230,9 +208,7 @@ class Robot:
             return
         self.tell_session("learning")
         yield 0.0
-        change = self._unless_stopped(lambda: self.teaching.learn(self._progress("learning")))
-        self._map = None
-        self._save()
+        change = self._changed(self.teaching.learn, "learning")
         curve = self.teaching.notebook.curve
         self._tell(descriptions.learned_message(observed.entry.number, change, curve))
 
@@ -242,27 +218,26 @@ class Robot:
             return
         self.tell_session("growing")
         yield 0.0
-        changes = self._unless_stopped(lambda: self.teaching.grow(self._progress("growing")))
-        self._map = None
-        self._save()
+        changes = self._changed(self.teaching.grow, "growing")
         self._tell(descriptions.grown_message(changes, self.teaching.learner.network))
 
-    def _unless_stopped(self, change: Callable[[], Any]) -> Any:
-        """Do what changes the session; a person who stops it finds all as it was before."""
-        before = self.teaching.standing
-        try:
-            return change()
-        except (StoppedError, MotioneseError):
-            self.teaching.return_to(before)
-            raise
+    def _changed(self, change: Callable[[Report], T], what: str) -> T:
+        """Let the network change; a person who stops it finds all as it was before."""
 
-    def _progress(self, what: str) -> Callable[[int, int, Progress], None]:
         def report(done: int, of: int, now: Progress) -> None:
             self._tell(descriptions.progress_message(what, done, of, now))
             if self._stop_asked():
                 raise StoppedError
 
-        return report
+        before = self.teaching.standing
+        try:
+            result = change(report)
+        except (StoppedError, MotioneseError):
+            self.teaching.return_to(before)
+            raise
+        self._map = None
+        self._save()
+        return result
 
     def _forget(self, message: dict[str, Any]) -> Iterator[float]:
         said = self.teaching.forget(message["entry"], self._folder.learner)

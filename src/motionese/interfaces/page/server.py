@@ -20,14 +20,7 @@ MOST_CONNECTIONS = 64
 
 
 def teach(
-    console: Console,
-    *,
-    begin: str,
-    session: Path,
-    host: str,
-    port: int,
-    token: str,
-    browser: bool,
+    console: Console, *, begin: str, session: Path, host: str, port: int, token: str, browser: bool
 ) -> None:
     """Serve the page on which a person teaches the robot, until Ctrl-C.
 
@@ -86,15 +79,13 @@ def _alone(session: Path) -> Iterator[None]:
     lock = FileLock(session / LOCK, blocking=False)
     try:
         session.mkdir(parents=True, exist_ok=True)
-        lock.acquire()
+        held = lock.acquire()
     except Timeout as error:
         raise StorageError(f"{session}: another process teaches in this session") from error
     except OSError as error:
         raise StorageError(f"{session} cannot be written to: {error.strerror}") from error
-    try:
+    with held:
         yield
-    finally:
-        lock.release()
 
 
 @contextmanager

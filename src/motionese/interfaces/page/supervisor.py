@@ -8,7 +8,7 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
-from motionese.interfaces.page.messages import Answer, worker_message
+from motionese.interfaces.page.messages import Answer, Tell, worker_message
 from motionese.interfaces.page.worker import Origin, work
 from motionese.one_core import one_core_each
 
@@ -20,7 +20,7 @@ AT_MOST = 5
 class Supervisor:
     """Holds the worker process; all methods are called in the server's event loop."""
 
-    def __init__(self, origin: Origin, told: Callable[[Answer], None]) -> None:
+    def __init__(self, origin: Origin, told: Tell) -> None:
         """Prepare a worker; `told` gets its messages, and its deaths as 'worker' messages."""
         self._origin, self._told = origin, told
         self._process: multiprocessing.process.BaseProcess | None = None

@@ -17,12 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Origin:
-    """What a robot begins from, and where its session is kept.
-
-    Attributes:
-        begin: "babbling", "fresh", or a run folder; empty for what is there, or babbling.
-        session: The session's folder.
-    """
+    """What a robot begins from, as `open_session` takes it, and its session's folder."""
 
     begin: str
     session: Path
