@@ -36,12 +36,7 @@ class Simulation:
     """The physics; `place` restores all of it, so that no earlier use is felt."""
 
     def __init__(
-        self,
-        model: mujoco.MjModel,
-        drive: Drive,
-        *,
-        sensed: Sequence[str],
-        effects: Sequence[str],
+        self, model: mujoco.MjModel, drive: Drive, *, sensed: Sequence[str], effects: Sequence[str]
     ) -> None:
         """Open a robot's model.
 

@@ -79,9 +79,7 @@ SHAPES = Task(
         Outcome("closure_cm", "gap between begin and end", "cm"),
     ),
     lessons={"shapes": ("T ↘←↗", "UL →↓←↑", "T ◝◡◜")},
-    novel={
-        "new_shapes": ("T ◝←↗", "T ↘◡↗", "T ↘←◜", "T ◝◡↗", "UL →↓◡↑", "LR ←↗↘", "LR ◡◜◝"),
-    },
+    novel={"new_shapes": ("T ◝←↗", "T ↘◡↗", "T ↘←◜", "T ◝◡↗", "UL →↓◡↑", "LR ←↗↘", "LR ◡◜◝")},
     fixtures="""
         <mujoco model="shapes">
           <worldbody>
