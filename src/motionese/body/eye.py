@@ -9,14 +9,12 @@ from jaxtyping import Float, UInt8
 from numpy import ndarray
 
 from motionese.body.composition import MARKERS, Hand
-from motionese.body.rendering import open_renderer
+from motionese.body.rendering import HEAD_GROUP, open_renderer
 from motionese.body.settings import SimulationSettings
 from motionese.errors import RenderingError
 
 IMAGE_SIZE = (128, 96)
 """Width and height of the eye's picture [px]."""
-HEAD_GROUP = 2
-"""Geoms of this group surround the eye and are left out of its pictures."""
 REDNESS = 90
 """How far red must exceed green and blue [of 255] in a pixel of the marker."""
 
@@ -78,8 +76,7 @@ class RenderedEye:
     def picture(self, data: mujoco.MjData) -> UInt8[ndarray, "96 128 3"]:
         """Return what the eye sees now, in red, green and blue."""
         self._renderer.update_scene(data, camera="eye", scene_option=self._option)
-        picture: UInt8[ndarray, "96 128 3"] = self._renderer.render()
-        return picture
+        return np.asarray(self._renderer.render())
 
     def see(
         self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator

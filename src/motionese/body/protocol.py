@@ -1,5 +1,6 @@
 """What the imitation of motions needs of a robot, and what a simulated one offers beside."""
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Protocol, runtime_checkable
 
@@ -94,10 +95,12 @@ class SimulatedRobot(Robot, Protocol):
         """
         ...
 
+    @abstractmethod
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return the points [m, world] that the marker reaches nearest to those of a path."""
         ...
 
+    @abstractmethod
     def bearing(self, values: Float[ndarray, "*shape D"]) -> Float[ndarray, "*shape 2"]:
         """Return the direction in which the seen hand lies, from the channels' values.
 
@@ -106,6 +109,7 @@ class SimulatedRobot(Robot, Protocol):
         """
         ...
 
+    @abstractmethod
     def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
         ...

@@ -1,6 +1,6 @@
 """What every simulated robot has: trials, senses, time, and the command that reaches a position."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from typing import ClassVar, Generic, TypeVar
 
 import mujoco
@@ -10,9 +10,9 @@ from numpy import ndarray
 
 from motionese.body.composition import Hand
 from motionese.body.eye import Eye, ProjectedEye, open_eye
+from motionese.body.protocol import SimulatedRobot
 from motionese.body.settings import PICTURES_HZ, SimulationSettings
 from motionese.body.simulation import Drive, Simulation
-from motionese.channels import Channels
 from motionese.errors import MotionError, TaskError
 from motionese.task import Task
 
@@ -22,8 +22,8 @@ _AWAY = np.array([1.30, 1.10, 0.95])
 Settings = TypeVar("Settings", bound=SimulationSettings)
 
 
-class TabletopRobot(ABC, Generic[Settings]):
-    """A robot at a table, face to face with the caregiver; fills `SimulatedRobot`.
+class TabletopRobot(SimulatedRobot, Generic[Settings]):
+    """A robot at a table, face to face with the caregiver.
 
     A trial begins with `reset` (the robot acts) or `watch` (the robot sees a demonstration). Both
     restore the whole simulation and let it settle for 1.5 s while the eye finds the hand.
@@ -34,21 +34,14 @@ class TabletopRobot(ABC, Generic[Settings]):
 
     Attributes:
         channels: What is sensed: angles of joints [rad] by the joints' names, then u, v [px].
-        joints: The commanded joints.
-        command_range: Lowest and highest angles [rad] that may be commanded.
         folded: Angles [rad] of the arm at rest out of the eye's view, away from the task's things.
-        eye_position: Where the eye is [m, world].
         reach: What the hand reaches, in words.
 
     Raises:
         RenderingError: The settings ask for a rendered view, and this machine renders no pictures.
     """
 
-    channels: Channels
-    joints: tuple[str, ...]
-    command_range: Float[ndarray, "2 J"]
     folded: ClassVar[Float[ndarray, " J"]]
-    eye_position: Float[ndarray, "3"]
     reach: ClassVar[str]
 
     def __init__(self, settings: Settings, task: Task) -> None:
@@ -90,18 +83,6 @@ class TabletopRobot(ABC, Generic[Settings]):
         self, gaze: Float[ndarray, " G"], seen: Float[ndarray, "2"]
     ) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad], corrected for a hand seen at (u, v) [px]."""
-
-    @abstractmethod
-    def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return the points [m, world] that the marker reaches nearest to those of a path."""
-
-    @abstractmethod
-    def bearing(self, values: Float[ndarray, "*shape D"]) -> Float[ndarray, "*shape 2"]:
-        """Return azimuth and elevation [rad] of the seen hand, from the channels' values."""
-
-    @abstractmethod
-    def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
 
     def reset(self, posture: Float[ndarray, " J"], rng: np.random.Generator) -> None:
         """Begin to act: arm settled at the commanded angles [rad], eye on its own hand.

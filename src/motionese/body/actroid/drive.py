@@ -6,6 +6,7 @@ from typing import Literal
 import mujoco
 import numpy as np
 from jaxtyping import Float
+from mujoco import MjData, MjModel
 from numpy import ndarray
 from pydantic import Field
 
@@ -30,7 +31,7 @@ class ActroidSettings(SimulationSettings):
     """Stiffness [Nm/rad] of each joint's pair of pneumatic actuators; a softer arm is slower."""
 
 
-def with_pneumatics(model: mujoco.MjModel, stiffness: float) -> mujoco.MjModel:
+def with_pneumatics(model: MjModel, stiffness: float) -> MjModel:
     """Give a model's pneumatic actuators a stiffness [Nm/rad]; returns the model.
 
     Each joint has two cylinders of force area·p − (k/2)·length − (d/2)·speed, one pulling each way:
@@ -52,7 +53,7 @@ class ActroidDrive:
     The sensed angle is not fed back: whatever pushes against the arm deflects it.
     """
 
-    def __init__(self, model: mujoco.MjModel, stiffness: float) -> None:
+    def __init__(self, model: MjModel, stiffness: float) -> None:
         self._model, self._stiffness = model, stiffness
         joints = [model.joint(name) for name in ("shoulder", "armpit")]
         self._qpos = np.array([j.qposadr[0] for j in joints])
@@ -64,9 +65,7 @@ class ActroidDrive:
         self._neck_ctrl = [model.actuator(n).id for n in ("pan", "tilt")]
         self._neck_act = [model.actuator(n).actadr[0] for n in ("pan", "tilt")]
 
-    def press(
-        self, data: mujoco.MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]
-    ) -> None:
+    def press(self, data: MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]) -> None:
         """Set pressures [share of supply] at which spring and weight balance at commanded angles.
 
         The neck's set points are the angles of the gaze.
@@ -76,9 +75,7 @@ class ActroidDrive:
         data.ctrl[self._ctrl] = 0.5 + np.array([half[0], -half[0], half[1], -half[1]])
         data.ctrl[self._neck_ctrl] = gaze
 
-    def place(
-        self, data: mujoco.MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]
-    ) -> None:
+    def place(self, data: MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]) -> None:
         """Put arm and neck at rest [rad], cylinders and dead time filled accordingly.
 
         An arm that would stand in the table starts above it; one that hangs does not.

@@ -14,13 +14,13 @@ SERVO_GAIN = 0.5
 """Share of the seen error that one correction of the gaze removes."""
 
 
-def followed(neck: Float[ndarray, "2"], seen: Float[ndarray, "2"]) -> Float[ndarray, "2"]:
+def followed(gaze: Float[ndarray, "2"], seen: Float[ndarray, "2"]) -> Float[ndarray, "2"]:
     """Return the commanded pan and tilt [rad], corrected for a hand seen at (u, v) [px].
 
     A pan moves the picture by the cosine of the tilt less than a tilt does.
     """
     right, down = np.arctan2(seen, FOCAL_PX)
-    return neck + SERVO_GAIN * np.array([-right / np.cos(neck[1]), down])
+    return gaze + SERVO_GAIN * np.array([-right / np.cos(gaze[1]), down])
 
 
 def aimed_at(position: Float[ndarray, "3"]) -> Float[ndarray, "2"]:
