@@ -45,8 +45,7 @@ def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
     """
     if nan_is_gap:
         recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
-    wrong = recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST))
-    if wrong is not None:
+    if wrong := recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST)):
         where, value = wrong
         hint = "; --nan gap takes NaN as not observed" if np.isnan(value) else ""
         raise MotionError(
@@ -117,8 +116,7 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
 
 def _check_lengths(recording: Recording) -> None:
     for episode in recording.episodes:
-        rows = len(episode.values)
-        if rows < 2:
+        if (rows := len(episode.values)) < 2:
             raise MotionError(
                 f"{recording.source}: episode '{episode.name}' has "
                 f"{'1 row' if rows == 1 else 'no rows'}; at least 2 are needed"

@@ -4,6 +4,7 @@ import csv
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,6 @@ class Table:
     """The cells of a text file, without blanks around them.
 
     Attributes:
-        path: The file, for messages.
         separator: What stands between two cells; a blank for any number of blanks.
         header: The cells of the first line.
         columns: The cells below, by column.
@@ -109,10 +109,8 @@ def _text(path: Path) -> str:
 
 def _lines_above(lines: Sequence[str]) -> int:
     """Return how many empty lines and comments stand above the table."""
-    for i, line in enumerate(lines):
-        if line.strip() and not line.lstrip().startswith(COMMENTS):
-            return i
-    return len(lines)
+    above = takewhile(lambda line: not line.strip() or line.lstrip().startswith(COMMENTS), lines)
+    return len(list(above))
 
 
 def _separator(lines: Sequence[str]) -> str:

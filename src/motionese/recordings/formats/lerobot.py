@@ -1,10 +1,9 @@
 """LeRobotDataset v3.0 and v2.1, read with pyarrow alone: no lerobot, no video decoded."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -26,8 +25,7 @@ from motionese.recordings.recording import Episode, Recording
 __all__ = ["read", "write"]
 
 
-@dataclass(frozen=True)
-class _Rows:
+class _Rows(NamedTuple):
     """All rows of the dataset, sorted by episode and frame."""
 
     values: Float[ndarray, "N D"]
@@ -41,11 +39,6 @@ def read(path: Path) -> Recording:
 
     Channels are named as in `lerobot_features.features_of`. Those of `observation.state` are
     usual; of `action` where there is no state; else all.
-
-    Raises:
-        RecordingError: Not such a folder, another version, files missing, cut short, or that do
-            not add up.
-        MissingPackageError: pyarrow is not installed.
     """
     info = read_info(path)
     features = features_of(info)

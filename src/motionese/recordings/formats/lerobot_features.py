@@ -2,9 +2,8 @@
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -51,8 +50,7 @@ class Info(_Loose):
     episode_names: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Feature:
+class Feature(NamedTuple):
     """A feature whose columns are channels: their names, unique in the dataset, and units."""
 
     key: str
@@ -61,11 +59,7 @@ class Feature:
 
 
 def read_info(path: Path) -> Info:
-    """Read meta/info.json of the dataset in the folder `path`.
-
-    Raises:
-        RecordingError: It is missing, no such file, or of a version that is not read.
-    """
+    """Read meta/info.json of the dataset in the folder `path`."""
     file = path / "meta" / "info.json"
     try:
         content = file.read_bytes()
@@ -95,9 +89,8 @@ def features_of(info: Info) -> tuple[Feature, ...]:
     taken: set[str] = set()
     for key, told in info.features.items():
         is_vector = len(told.shape) <= 1 and all(0 < n <= WIDEST for n in told.shape)
-        if key in BOOKKEEPING or told.dtype not in {"float32", "float64"} or not is_vector:
-            continue
-        if told.derived_from is not None:
+        is_float = told.dtype in {"float32", "float64"}
+        if key in BOOKKEEPING or told.derived_from is not None or not (is_float and is_vector):
             continue
         width = told.shape[0] if told.shape else 1
         channels = _channels(key, _names(told.names, width), width)

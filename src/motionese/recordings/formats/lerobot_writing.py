@@ -25,12 +25,8 @@ def write(path: Path, recording: Recording) -> None:
     """Write the recording as a new folder that holds a LeRobotDataset v3.0.
 
     `observation.state` holds all channels in single precision, which is what lerobot's policies
-    take; `action` is the next row's state (the last row its own), for a policy needs one.
-
-    Raises:
-        RecordingError: Gaps, uneven times, or a rate that is no whole number, which the format
-            cannot hold, or `path` exists.
-        MissingPackageError: pyarrow is not installed.
+    take; `action` is the next row's state (the last row its own), for a policy needs one. Gaps,
+    uneven times and a rate that is no whole number are refused.
     """
     check_even_and_whole(path, recording, "a LeRobotDataset")
     rate = recording.rate_hz

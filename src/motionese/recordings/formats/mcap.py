@@ -53,10 +53,6 @@ def read(path: Path) -> Recording:
     Rows are the times at which any of the topics spoke, counted from the file's first message;
     a channel is observed where its own topic did. The rate is that of the topic with the most
     messages. All channels but headers, stamps and sequence numbers are usual.
-
-    Raises:
-        RecordingError: Not an MCAP file, cut short, damaged, or without numbers in JSON.
-        MissingPackageError: mcap is not installed.
     """
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda f: natural(f.name))
     if not files:
@@ -157,11 +153,9 @@ def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) ->
         tape.stamps.setdefault(topic.topic, set()).add(stamp)
     for path, number in found:
         name = path.removeprefix(".") if ours else topic.topic + path
-        if name not in tape.samples:
-            tape.samples[name] = {}
-            if not ours and is_bookkeeping(path):
-                tape.bookkeeping.add(name)
-        tape.samples[name][stamp] = number
+        if name not in tape.samples and not ours and is_bookkeeping(path):
+            tape.bookkeeping.add(name)
+        tape.samples.setdefault(name, {})[stamp] = number
 
 
 def _rate(tapes: list[_Tape]) -> float | None:

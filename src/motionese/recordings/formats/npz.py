@@ -51,11 +51,7 @@ class Metadata(BaseModel):
 
 
 def read(path: Path) -> Recording:
-    """Read a file that `write` wrote.
-
-    Raises:
-        RecordingError: Another file, one cut short, or one of a newer format.
-    """
+    """Read a file that `write` wrote."""
     try:
         # NumPy leaves open what it opened itself and could not read.
         with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:

@@ -7,10 +7,9 @@ names no columns: a dataset that we wrote says in its attributes `names` and `un
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,8 +27,7 @@ _NO_ENVIRONMENT = {"env_name": "recording", "type": 2}
 """robomimic asks for a kind of environment (2: gym) even where none is ever made."""
 
 
-@dataclass(frozen=True)
-class _Columns:
+class _Columns(NamedTuple):
     """The channels of one dataset, which has the same columns in every demonstration."""
 
     dataset: str
@@ -42,10 +40,6 @@ def read(path: Path) -> Recording:
 
     The rate is `control_freq` of the environment where the file has it. Observations are usual;
     actions where there are none.
-
-    Raises:
-        RecordingError: Not such a file, cut short, or datasets that do not fit together.
-        MissingPackageError: h5py is not installed.
     """
     h5py = imported("h5py", "hdf5", "reading robomimic's HDF5")
     check_walkable(path)
@@ -63,11 +57,8 @@ def write(path: Path, recording: Recording) -> None:
     """Write the recording as demonstrations with one observation key, `state` [T, D].
 
     `actions` are the next row's state (the last row its own), which is what a learner imitates;
-    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up.
-
-    Raises:
-        RecordingError: Gaps or uneven times, which robomimic cannot hold.
-        MissingPackageError: h5py is not installed.
+    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up. Gaps and
+    uneven times are refused.
     """
     h5py = imported("h5py", "hdf5", "writing robomimic's HDF5")
     check_even_and_whole(path, recording, "robomimic's HDF5")
@@ -85,8 +76,7 @@ def write(path: Path, recording: Recording) -> None:
 def _recording(path: Path, file: Any) -> Recording:
     data = file.get("data")
     groups = [key for key in data if _is_group(data[key])] if _is_group(data) else []
-    demos = sorted(groups, key=natural)
-    if not demos:
+    if not (demos := sorted(groups, key=natural)):
         raise RecordingError(
             f"{path}: no demonstrations: robomimic's HDF5 has groups data/demo_0, data/demo_1, …; "
             f"here are: {', '.join(file) or 'none'}"

@@ -11,12 +11,11 @@ SECONDS = 30.0
 
 _WALK = """
 import sys, h5py
+from contextlib import suppress
 def visit(name, item):
     for key in item.attrs:
-        try:
+        with suppress(Exception):
             item.attrs[key]
-        except Exception:
-            pass
 with h5py.File(sys.argv[1], "r") as file:
     file.visititems(visit)
 """
@@ -27,18 +26,11 @@ def check_walkable(path: Path) -> None:
 
     Of files with a few random bytes changed about one in a hundred takes the process down or
     keeps it for ever, nearly always in an attribute of variable length. What the walk merely
-    refuses is left to the reading, which says why.
-
-    Raises:
-        RecordingError: The child did not come back.
+    refuses is left to the reading, which says why; `RecordingError` if it did not come back.
     """
     try:
-        walk = subprocess.run(
-            [sys.executable, "-P", "-c", _WALK, str(path)],
-            capture_output=True,
-            timeout=SECONDS,
-            check=False,
-        )
+        command = [sys.executable, "-P", "-c", _WALK, str(path)]
+        walk = subprocess.run(command, capture_output=True, timeout=SECONDS, check=False)
     except subprocess.TimeoutExpired as error:
         raise RecordingError(f"{path}: damaged: HDF5 does not get through it") from error
     if walk.returncode < 0:
