@@ -26,11 +26,7 @@ class Geometry:
         self.shapes = tuple(self._shape(i) for i in range(model.ngeom))
 
     def placed(self, poses: Float[ndarray, "T P"]) -> Float[ndarray, "T B 7"]:
-        """Return position [m, world] and quaternion (w, x, y, z) of every body in kept poses.
-
-        Args:
-            poses: What the robot's `pose` returned at the wanted moments.
-        """
+        """Return position [m, world] and quaternion (w, x, y, z) of every body in kept `pose`s."""
         model, data = self._model, self._data
         bodies = np.empty((len(poses), model.nbody, 7))
         for body, pose in zip(bodies, poses, strict=True):

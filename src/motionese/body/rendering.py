@@ -52,16 +52,11 @@ def pictures(
     camera: Literal["outside", "eye"] = "outside",
     size: tuple[int, int] = (320, 240),
 ) -> UInt8[ndarray, "N height width 3"]:
-    """Draw kept poses as pictures in red, green and blue.
+    """Draw kept `pose`s of a robot as pictures in red, green and blue.
 
     Args:
-        model: Of the robot whose poses they are, see `load_model`.
-        poses: What the robot's `pose` returned at the wanted moments.
         camera: "outside", beside the table, or "eye", from where the robot sees.
         size: Width and height [px], at most 640 × 480.
-
-    Raises:
-        RenderingError: No pictures can be rendered on this machine.
     """
     data = mujoco.MjData(model)
     option = mujoco.MjvOption()

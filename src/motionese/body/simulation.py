@@ -35,14 +35,7 @@ class Simulation:
     def __init__(
         self, model: MjModel, drive: Drive, *, sensed: Sequence[str], effects: Sequence[str]
     ) -> None:
-        """Open a robot's model.
-
-        Args:
-            model: Robot, things and caregiver's hand.
-            drive: The robot's actuators.
-            sensed: The joints whose angles are sensed.
-            effects: The slide joints of the task's things.
-        """
+        """Open a model, see `composed`; by name its sensed joints and its things' slide joints."""
         self.model, self.data, self._drive = model, MjData(model), drive
         self.substeps = round(1 / PICTURES_HZ / model.opt.timestep)
         self._sensed = [model.joint(name).qposadr[0] for name in sensed]

@@ -29,16 +29,13 @@ class TabletopRobot(SimulatedRobot, Generic[Settings]):
     restore the whole simulation and let it settle for 1.5 s while the eye finds the hand.
 
     A robot adds its model and its actuators, its kinematics (`marker_at` and `angles_nearest`: the
-    marker's position by joint angles, and back), its gaze (`aimed_at`, `followed`; an array without
-    numbers where the eye is fixed) and how the hand it sees lies in space (`bearing`, `met`).
+    marker's position by joint angles, and back), unless its eye stands still its gaze (`aimed_at`,
+    `followed`), and how the hand it sees lies in space (`bearing`, `met`).
 
     Attributes:
         channels: What is sensed: angles of joints [rad] by the joints' names, then u, v [px].
         folded: Angles [rad] of the arm at rest out of the eye's view, away from the task's things.
         reach: What the hand reaches, in words.
-
-    Raises:
-        RenderingError: The settings ask for a rendered view, and this machine renders no pictures.
     """
 
     folded: ClassVar[Float[ndarray, " J"]]
@@ -74,29 +71,23 @@ class TabletopRobot(SimulatedRobot, Generic[Settings]):
     def angles_nearest(self, position: Float[ndarray, "3"]) -> Float[ndarray, " J"]:
         """Return the angles [rad], of those that may be commanded, nearest to a position [m]."""
 
-    @abstractmethod
     def aimed_at(self, position: Float[ndarray, "3"]) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad] that bring a position [m] into the view's middle."""
+        return np.zeros(0)
 
-    @abstractmethod
     def followed(
         self, gaze: Float[ndarray, " G"], seen: Float[ndarray, "2"]
     ) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad], corrected for a hand seen at (u, v) [px]."""
+        return gaze
 
     def reset(self, posture: Float[ndarray, " J"], rng: np.random.Generator) -> None:
-        """Begin to act: arm settled at the commanded angles [rad], eye on its own hand.
-
-        The caregiver's hand is away. `rng` gives the noise of all pictures until the next trial.
-        """
+        """Begin to act: arm settled at the commanded angles [rad]; the caregiver's hand is away."""
         arm = np.clip(posture, *self.command_range)
         self._begin("own", arm, self.aimed_at(self.marker_at(arm)), _AWAY, rng)
 
     def watch(self, position: Float[ndarray, "3"], rng: np.random.Generator) -> None:
-        """Begin to watch: the caregiver's marker at a position [m, world], the eye on it.
-
-        The robot's arm is folded. `rng` gives the noise of all pictures until the next trial.
-        """
+        """Begin to watch the caregiver's marker at a position [m, world], the own arm folded."""
         self._begin("caregiver", self.folded, self.aimed_at(position), position, rng)
 
     def command(self, angles: Float[ndarray, " J"]) -> None:
@@ -152,9 +143,6 @@ class TabletopRobot(SimulatedRobot, Generic[Settings]):
         """Return the command [rad] under which the marker settles at a position [m, world].
 
         Where the arm gives way (weight, a pressed button) the command lies beyond the angles.
-
-        Raises:
-            TaskError: The marker stays further away than `tolerance_m` [m]; names the position.
         """
         target = self.angles_nearest(position)
         self._check_reached(self.marker_at(target), position, tolerance_m, name)

@@ -79,12 +79,8 @@ def recording_of(
 def read_recorded(path: Path, task: Task, manner: Manner, body: SimulatedRobot) -> Recorded:
     """Read recorded demonstrations; each is played at the tempo of the scripted caregiver.
 
-    Args:
-        path: A session's folder, or recordings in any format whose channels are the hand's
-            position.
-        task: What they show primitives of.
-        manner: The scripted caregiver's, hence the tempo.
-        body: The robot they are shown to.
+    They lie in a session's folder, or are recordings in any format whose channels are the hand's
+    position.
 
     Raises:
         MotioneseError: No such recordings, an episode that is named by no sequence of the task or

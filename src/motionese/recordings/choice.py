@@ -73,11 +73,7 @@ def choose(**given: Any) -> Choice:
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:
-    """Return the recording with the chosen channels only, in the order chosen.
-
-    Raises:
-        ChannelError: A name or pattern that fits no channel, or no channel that is left.
-    """
+    """Return the recording with the chosen channels only, in the order chosen."""
     everything, wanted = recording.channels, choice.channels
     taken = recording.usual if wanted is None else matching(recording, wanted, everything)
     dropped = matching(recording, choice.exclude, everything)

@@ -25,9 +25,6 @@ def even(recording: Recording, rate_hz: float) -> Recording:
 
     Rows that are on the grid already are kept bit for bit. Otherwise every channel is
     interpolated linearly between its own observed samples; within a hole nothing is observed.
-
-    Raises:
-        RecordingError: The times of an episode span far more rows than it has.
     """
     on_grid = recording.map(lambda e: replace(_on_grid(recording.source, e, rate_hz), times=None))
     return replace(on_grid, rate_hz=rate_hz)
@@ -39,9 +36,6 @@ def resampled(recording: Recording, rate_hz: float) -> Recording:
     Going down, every channel is averaged first, over a window of one new interval around each
     row, so that nothing faster folds into the new rate and nothing is delayed. A new row is
     observed where both rows around it were.
-
-    Raises:
-        SettingError: The rate would be raised more than a hundredfold.
     """
     assert recording.rate_hz is not None
     step = recording.rate_hz / rate_hz

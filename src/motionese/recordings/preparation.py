@@ -21,9 +21,10 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
 
     Raises:
-        ChannelError: A channel that does not exist, or whose range cannot be told.
+        ChannelError: A channel that does not exist, or whose range cannot be told, or none left.
         MotionError: A value that is not finite, or an episode of fewer than two rows.
-        RecordingError: A rate that nobody tells or that differs, or times that do not rise.
+        RecordingError: A rate that nobody tells or that differs, or times that do not rise, are in
+            another unit, or span far more rows than there are.
         SettingError: A rate to resample to that is out of reach.
     """
     recording = finite(chosen(recording, choice), nan_is_gap=choice.nan == "gap")
@@ -38,11 +39,7 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
 
 
 def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
-    """Return the recording with finite values wherever something was observed.
-
-    Raises:
-        MotionError: An infinite value, or a NaN that is no gap.
-    """
+    """Return the recording with finite values wherever something was observed."""
     if nan_is_gap:
         recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
     if wrong := recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST)):
@@ -83,8 +80,7 @@ def still_ends(episode: Episode, limits: Float[ndarray, " D"]) -> tuple[int, int
 def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[float, float]:
     """Return the lowest and highest value, widened on both sides by a share of their distance.
 
-    Raises:
-        ChannelError: Nothing was observed, or it is always the same.
+    `ChannelError` if nothing was observed, or always the same.
     """
     if not len(seen) or seen.min() == seen.max():
         what = f"is always {seen[0]:g}" if len(seen) else "is never observed"
@@ -94,11 +90,7 @@ def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[floa
 
 
 def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
-    """Return the range of every channel: given by the user, told by the file, or of the data.
-
-    Raises:
-        ChannelError: A range for no channel, or a channel that has none and never changes.
-    """
+    """Return the range of every channel: given by the user, told by the file, or of the data."""
     ranges = dict(recording.ranges)
     for pattern, limits in choice.ranges.items():
         ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)

@@ -33,12 +33,6 @@ def bearing(values: Float[ndarray, "*shape 6"]) -> Float[ndarray, "*shape 2"]:
     """Return the direction in which the seen hand lies, from the channels' values.
 
     The ray of pixel (u, v) is turned by tilt, then by pan: both rotations exactly, not their sum.
-
-    Args:
-        values: shoulder, armpit, pan, tilt [rad], u, v [px]; the arm's angles are not used.
-
-    Returns:
-        Azimuth [rad], positive to the robot's left, and elevation [rad], positive upwards.
     """
     _, _, pan, tilt, u, v = np.moveaxis(np.asarray(values, dtype=np.float64), -1, 0)
     left, up = -u / FOCAL_PX, -v / FOCAL_PX

@@ -111,14 +111,6 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
         angles = np.stack([np.arctan2(y, x), lift, bend + np.angle(MARKER)], axis=-1)
         return np.asarray(np.clip(angles, *COMMAND_RANGE))
 
-    def aimed_at(self, position: Float[ndarray, "3"]) -> Float[ndarray, "0"]:
-        """Return nothing: the camera stands still."""
-        return np.zeros(0)
-
-    def followed(self, gaze: Float[ndarray, "0"], seen: Float[ndarray, "2"]) -> Float[ndarray, "0"]:
-        """Return nothing: the camera stands still."""
-        return gaze
-
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return the points of a path [m, world], or the nearest that the arm reaches."""
         return self.marker_at(self.angles_nearest(path))

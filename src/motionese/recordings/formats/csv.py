@@ -50,8 +50,7 @@ def write(path: Path, recording: Recording) -> None:
 
     No channel may be called as the columns of episode or time are.
     """
-    taken = {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}
-    if taken:
+    if taken := {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}:
         raise RecordingError(f"{path}: a csv file has its own column '{taken.pop()}'; rename it")
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
@@ -141,13 +140,11 @@ def _rising(
     if times is None:
         return None
     here = times[rows]
-    wrong = np.flatnonzero(~np.isfinite(here))
-    if len(wrong):
+    if len(wrong := np.flatnonzero(~np.isfinite(here))):
         raise RecordingError(
             f"{table.where(rows.start + int(wrong[0]))}: episode '{name}' has a row without a time"
         )
-    back = np.flatnonzero(np.diff(here) <= 0)
-    if len(back):
+    if len(back := np.flatnonzero(np.diff(here) <= 0)):
         raise RecordingError(
             f"{table.where(rows.start + int(back[0]) + 1)}: time must rise inside episode "
             f"'{name}', got {here[back[0] + 1]:.12g} s after {here[back[0]]:.12g} s"

@@ -41,8 +41,7 @@ def read(path: Path) -> Recording:
     usual; of `action` where there is no state; else all.
     """
     info = read_info(path)
-    features = features_of(info)
-    if not features:
+    if not (features := features_of(info)):
         raise RecordingError(
             f"{path}: no feature of dtype float32 or float64 and shape [n]; "
             f"there are: {', '.join(info.features) or 'none'}"
@@ -63,8 +62,7 @@ def read(path: Path) -> Recording:
 
 
 def _read_rows(path: Path, features: tuple[Feature, ...]) -> _Rows:
-    files = sorted((path / "data").glob("*/*.parquet"))
-    if not files:
+    if not (files := sorted((path / "data").glob("*/*.parquet"))):
         raise RecordingError(f"{path}: no data/chunk-…/*.parquet; is the download complete?")
     widths = {f.key: len(f.channels) for f in features}
     widths.update(episode_index=1, frame_index=1, timestamp=1)
@@ -115,8 +113,7 @@ def _matrix(file: Path, table: Any, key: str, width: int) -> Float[ndarray, "N n
         raise RecordingError(
             f"{file}: column '{key}' has {lengths} numbers in a row; info.json says {width}"
         )
-    numbers = np.asarray(cells.to_numpy(zero_copy_only=False), np.float64)
-    return numbers.reshape(-1, width)
+    return np.asarray(cells.to_numpy(zero_copy_only=False), np.float64).reshape(-1, width)
 
 
 def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarray, " N"]:

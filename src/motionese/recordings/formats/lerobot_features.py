@@ -1,7 +1,6 @@
 """What a LeRobotDataset's meta/info.json says, and how its features become named channels."""
 
 from collections import Counter
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -114,11 +113,7 @@ def _names(told: Any, width: int) -> tuple[str, ...] | None:
     if isinstance(told, dict) and all(isinstance(v, int) for v in told.values()):
         told = sorted(told, key=told.__getitem__)
     elif isinstance(told, dict):
-        told = _joined(told.values())
-    elif isinstance(told, list) and all(isinstance(part, list) for part in told):
-        told = _joined(told)
+        told = [part for part in told.values() if isinstance(part, list)]
+    if isinstance(told, list) and all(isinstance(part, list) for part in told):
+        told = [name for part in told for name in part]
     return strings(told, width)
-
-
-def _joined(parts: Iterable[Any]) -> list[Any]:
-    return [name for part in parts if isinstance(part, list) for name in part]

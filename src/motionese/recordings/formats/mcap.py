@@ -38,8 +38,7 @@ __all__ = ["read", "write"]
 class _Tape:
     """What one file holds: numbers by channel and log time [ns]."""
 
-    file: Path
-    metadata: TopicMetadata | None = None
+    metadata: TopicMetadata
     samples: dict[str, dict[int, float]] = field(default_factory=dict)
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
@@ -58,9 +57,8 @@ def read(path: Path) -> Recording:
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
     tapes = [_read_tape(file) for file in files]
-    named = [n for t in tapes for n in (*(t.metadata.channels if t.metadata else ()), *t.samples)]
-    channels = tuple(dict.fromkeys(named))
-    told = [t.metadata for t in tapes if t.metadata]
+    channels = tuple(dict.fromkeys(n for t in tapes for n in (*t.metadata.channels, *t.samples)))
+    told = [t.metadata for t in tapes]
     units = {name: unit for m in told for name, unit in zip(m.channels, m.units, strict=False)}
     bookkeeping = set.union(*(t.bookkeeping for t in tapes))
     return Recording(
@@ -98,7 +96,7 @@ def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
 
 
 def _read_tape(file: Path) -> _Tape:
-    tape = _Tape(file)
+    tape = _Tape(TopicMetadata(episode=file.stem, channels=(), units=(), rate_hz=None))
     topics: dict[int, Any] = {}
     for record in _records(file):
         if hasattr(record, "message_encoding"):
@@ -160,12 +158,10 @@ def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) ->
 
 def _rate(tapes: list[_Tape]) -> float | None:
     """Return the rate [Hz] that all files tell, or that of the topic with the most messages."""
-    told = {t.metadata.rate_hz if t.metadata else None for t in tapes}
+    told = {t.metadata.rate_hz for t in tapes}
     if len(told) == 1 and None not in told:
         return told.pop()
-    count = Counter[str]()
-    for tape in tapes:
-        count.update({topic: len(stamps) for topic, stamps in tape.stamps.items()})
+    count = Counter(topic for t in tapes for topic, stamps in t.stamps.items() for _ in stamps)
     (densest, _), *_ = count.most_common(1)
     return rate_of_times([_since_first(sorted(t.stamps.get(densest, ()))) for t in tapes])
 
@@ -185,10 +181,5 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
         rows = [row_at[stamp] for stamp in samples]
         values[rows, column] = list(samples.values())
         observed[rows, column] = True
-    rate_told = tape.metadata.rate_hz if tape.metadata else None
-    return Episode(
-        name=tape.metadata.episode if tape.metadata else tape.file.stem,
-        times=times_unless_even(_since_first(stamps), rate_told),
-        values=values,
-        observed=observed,
-    )
+    times = times_unless_even(_since_first(stamps), tape.metadata.rate_hz)
+    return Episode(tape.metadata.episode, times, values, observed)

@@ -86,15 +86,16 @@ def _recording(path: Path, file: Any) -> Recording:
         raise RecordingError(
             f"{path}: '{demos[0]}' has no floating-point datasets of shape [T] or [T, n]"
         )
-    episodes = tuple(_episode(path, data[demo], columns) for demo in demos)
+    observed = [c for c in columns if c.dataset.startswith("obs/")]
+    usual = observed or [c for c in columns if c.dataset == "actions"] or columns
     return Recording(
         source=path,
         channels=tuple(n for c in columns for n in c.names),
         units=tuple(u for c in columns for u in c.units),
         ranges={},
         rate_hz=_rate(data.attrs.get("env_args")),
-        episodes=episodes,
-        usual=_usual(columns),
+        episodes=tuple(_episode(path, data[demo], columns) for demo in demos),
+        usual=tuple(n for c in usual for n in c.names),
     )
 
 
@@ -149,12 +150,6 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     values = np.concatenate(tables, axis=1, dtype=np.float64)
     name = demo.attrs.get("name")
     return Episode.whole(name if isinstance(name, str) else own_name, values)
-
-
-def _usual(columns: tuple[_Columns, ...]) -> tuple[str, ...]:
-    observed = [c for c in columns if c.dataset.startswith("obs/")]
-    acted = [c for c in columns if c.dataset == "actions"]
-    return tuple(n for c in observed or acted or columns for n in c.names)
 
 
 def _rate(env_args: Any) -> float | None:
