@@ -22,11 +22,9 @@ class Drive(Protocol):
 
         Actuators are as they would be after a long rest there.
         """
-        ...
 
     def press(self, data: MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]) -> None:
         """Set the actuators for commanded joints and neck [rad], until the next picture."""
-        ...
 
 
 class Simulation:

@@ -39,4 +39,3 @@ class Caregiver(Protocol):
 
     def demonstrate(self, sequence: PrimitiveSequence, rng: np.random.Generator) -> Demonstration:
         """Show a sequence; whatever is random is drawn from `rng`."""
-        ...

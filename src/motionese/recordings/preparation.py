@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import ChannelError, MotionError
@@ -72,9 +72,8 @@ def trimmed(
 
 def still_ends(episode: Episode, limits: Float[ndarray, " D"]) -> tuple[int, int]:
     """Return how many rows at the start and at the end can be cut, one still row being kept."""
-    values, observed = episode.values, episode.observed
-    at_end = _still_rows(values[::-1], observed[::-1], limits)
-    return _still_rows(values, observed, limits), at_end
+    backwards = episode.part(slice(None, None, -1))
+    return _still_rows(episode, limits), _still_rows(backwards, limits)
 
 
 def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[float, float]:
@@ -115,10 +114,9 @@ def _check_lengths(recording: Recording) -> None:
             )
 
 
-def _still_rows(
-    values: Float[ndarray, "T D"], observed: Bool[ndarray, "T D"], limits: Float[ndarray, " D"]
-) -> int:
+def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     """Return the rows before the last one that is still at its channels' first values."""
+    values, observed = episode.values, episode.observed
     if not len(values):
         return 0
     first = values[np.argmax(observed, axis=0), np.arange(len(limits))]

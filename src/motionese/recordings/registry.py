@@ -88,9 +88,9 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     path = Path(path)
     name = _named(format) or _by_suffix(path)
     if name is None:
+        suffixes = (suffix for known in FORMATS.values() for suffix in known.suffixes)
         raise SettingError(
-            f"{path}: its name does not tell the format; end it in "
-            f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
+            f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
             f"or name the format (--to), one of {', '.join(FORMATS)}"
         )
     FORMATS[name].module.write(path, _checked(recording))

@@ -16,7 +16,6 @@ class Way(Protocol):
         self, share: Float[ndarray, " S"], start: Float[ndarray, "3"], end: Float[ndarray, "3"]
     ) -> Float[ndarray, "S 3"]:
         """Return positions [m, world] at shares of the way, 0 at `start` and 1 at `end`."""
-        ...
 
 
 def straight(

@@ -19,6 +19,8 @@ ARM_ACTUATORS = ("shoulder_down", "shoulder_up", "armpit_left", "armpit_right")
 _TUNED_STIFFNESS = 30.0
 _TUNED_DAMPING = 3.0
 _TUNED_VALVE_S = 0.06
+_AREA = 2.0
+"""A cylinder's torque at full supply pressure [Nm] for each Nm/rad, enough for rest at ±2 rad."""
 
 _FREE_SHOULDER = np.radians(35.0)
 
@@ -42,7 +44,7 @@ def with_pneumatics(model: MjModel, stiffness: float) -> MjModel:
         cylinder = model.actuator(name).id
         model.actuator_biasprm[cylinder, 1] = -stiffness / 2
         model.actuator_biasprm[cylinder, 2] = -_TUNED_DAMPING / softness / 2
-        model.actuator_gainprm[cylinder, 0] = _area(stiffness)
+        model.actuator_gainprm[cylinder, 0] = _AREA * stiffness
         model.actuator_dynprm[cylinder, 0] = _TUNED_VALVE_S * softness
     return model
 
@@ -71,7 +73,7 @@ class ActroidDrive:
         The neck's set points are the angles of the gaze.
         """
         torque = self._stiffness * angles + data.qfrc_bias[self._dof]
-        half = torque / _area(self._stiffness) / 2
+        half = torque / (_AREA * self._stiffness) / 2
         data.ctrl[self._ctrl] = 0.5 + np.array([half[0], -half[0], half[1], -half[1]])
         data.ctrl[self._neck_ctrl] = gaze
 
@@ -93,8 +95,3 @@ class ActroidDrive:
             samples = int(self._model.actuator_history[cylinder, 0])
             past = np.full(samples, data.ctrl[cylinder])
             mujoco.mj_initCtrlHistory(self._model, data, cylinder, None, past)
-
-
-def _area(stiffness: float) -> float:
-    """Return a cylinder's torque at full supply pressure [Nm], enough for rest angles of ±2 rad."""
-    return 2.0 * stiffness

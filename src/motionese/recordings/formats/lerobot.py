@@ -47,7 +47,13 @@ def read(path: Path) -> Recording:
             f"there are: {', '.join(info.features) or 'none'}"
         )
     rows = _read_rows(path, features)
-    _check_totals(path, info, rows)
+    found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
+    for key, count in found.items():
+        if (told := getattr(info, key)) not in {None, count}:
+            raise RecordingError(
+                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
+                f"is the download complete?"
+            )
     by_key = {f.key: f.channels for f in features}
     channels = tuple(name for f in features for name in f.channels)
     return Recording(
@@ -117,33 +123,20 @@ def _matrix(file: Path, table: Any, key: str, width: int) -> Float[ndarray, "N n
 
 
 def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarray, " N"]:
-    wrong = np.flatnonzero(~(np.abs(column[:, 0]) < 2**53))
-    if len(wrong):
+    if len(wrong := np.flatnonzero(~(np.abs(column[:, 0]) < 2**53))):
         raise RecordingError(f"{path}: column '{key}' holds {column[wrong[0], 0]:g}, no row number")
     return np.asarray(column[:, 0], dtype=np.int64)
-
-
-def _check_totals(path: Path, info: Info, rows: _Rows) -> None:
-    found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
-    for key, count in found.items():
-        if (told := getattr(info, key)) not in {None, count}:
-            raise RecordingError(
-                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
-                f"is the download complete?"
-            )
 
 
 def _episodes(path: Path, info: Info, rows: _Rows) -> Iterator[Episode]:
     indices, starts = np.unique(rows.episode, return_index=True)
     names = dict(enumerate(info.episode_names))
     for index, start, end in zip(indices, starts, [*starts[1:], len(rows.episode)], strict=True):
-        where = f"{path}: episode {index}"
-        wrong = np.flatnonzero(rows.frame[start:end] != np.arange(end - start))
-        if len(wrong):
+        if len(wrong := np.flatnonzero(rows.frame[start:end] != np.arange(end - start))):
             raise RecordingError(
-                f"{where}: frame {wrong[0]} is missing; "
+                f"{path}: episode {index}: frame {wrong[0]} is missing; "
                 f"found frame_index {rows.frame[start + wrong[0]]} in its place"
             )
-        values = rows.values[start:end]
+        name = names.get(index, f"episode_{index:06d}")
         times = times_unless_even(rows.times[start:end], info.fps)
-        yield Episode.whole(names.get(index, f"episode_{index:06d}"), values, times)
+        yield Episode.whole(name, rows.values[start:end], times)

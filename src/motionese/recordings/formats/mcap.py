@@ -43,7 +43,6 @@ class _Tape:
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
     bookkeeping: set[str] = field(default_factory=set)
-    encodings: set[str] = field(default_factory=set)
 
 
 def read(path: Path) -> Recording:
@@ -101,7 +100,6 @@ def _read_tape(file: Path) -> _Tape:
     for record in _records(file):
         if hasattr(record, "message_encoding"):
             topics[record.id] = record
-            tape.encodings.add(record.message_encoding)
             if METADATA_KEY in record.metadata:
                 tape.metadata = TopicMetadata.read(file, record.metadata[METADATA_KEY])
         elif hasattr(record, "channel_id"):
@@ -117,9 +115,10 @@ def _read_tape(file: Path) -> _Tape:
                 ) from error
             _add(tape, topic, record.log_time, found)
     if not tape.stamps:
+        encodings = sorted({topic.message_encoding for topic in topics.values()})
         raise RecordingError(
             f"{file}: no numbers in messages encoded as 'json'; "
-            f"encodings in it: {', '.join(sorted(tape.encodings)) or 'none'}"
+            f"encodings in it: {', '.join(encodings) or 'none'}"
         )
     return tape
 

@@ -106,9 +106,8 @@ def _columns(demo: Any) -> Iterator[_Columns]:
     paths += [key for key in demo if key != "obs"]
     for name in paths:
         dataset = demo[name]
-        if not _is_table(dataset) or DERIVED in dataset.attrs:
+        if not (width := _width(dataset)) or DERIVED in dataset.attrs:
             continue
-        width = 1 if dataset.ndim == 1 else dataset.shape[1]
         named, units = (strings(_json(dataset.attrs.get(a)), width) for a in ("names", "units"))
         label = name.removeprefix("obs/")
         plain = (label,) if dataset.ndim == 1 else tuple(f"{label}_{i}" for i in range(width))
@@ -119,10 +118,12 @@ def _is_group(item: Any) -> bool:
     return hasattr(item, "keys")
 
 
-def _is_table(item: Any) -> bool:
-    if not hasattr(item, "dtype") or item.dtype.kind != "f":
-        return False
-    return bool(item.ndim == 1 or (item.ndim == 2 and 0 < item.shape[1] <= WIDEST))
+def _width(item: Any) -> int:
+    """Return how many columns a dataset of numbers [T] or [T, n] has; 0 for anything else."""
+    if not hasattr(item, "dtype") or item.dtype.kind != "f" or item.ndim not in {1, 2}:
+        return 0
+    width = 1 if item.ndim == 1 else int(item.shape[1])
+    return width if width <= WIDEST else 0
 
 
 def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
@@ -131,7 +132,7 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     rows = {}
     for column in columns:
         dataset, width = demo.get(column.dataset), len(column.names)
-        if not _is_table(dataset) or (dataset.shape[1] if dataset.ndim == 2 else 1) != width:
+        if _width(dataset) != width:
             raise RecordingError(
                 f"{where} has no dataset {column.dataset} of {width} columns, "
                 f"which the first demonstration has"
@@ -171,11 +172,9 @@ def _json(text: Any) -> Any:
 
 def _write_demo(demo: Any, episode: Episode, recording: Recording) -> None:
     rows = len(episode.values)
-    demo.attrs["num_samples"] = rows
-    demo.attrs["name"] = episode.name
+    demo.attrs.update(num_samples=rows, name=episode.name)
     state = demo.create_dataset("obs/state", data=episode.values)
-    state.attrs["names"] = json.dumps(recording.channels)
-    state.attrs["units"] = json.dumps(recording.units)
+    state.attrs.update(names=json.dumps(recording.channels), units=json.dumps(recording.units))
     derived = {
         "actions": next_rows(episode.values),
         "rewards": np.zeros(rows),
