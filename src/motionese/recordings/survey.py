@@ -90,13 +90,13 @@ class Survey(NamedTuple):
 def survey(recording: Recording) -> Survey:
     """Return the numbers of a recording as it was read, before anything is refused or mended."""
     episodes = recording.episodes
-    values, observed, steps = (
+    values, observed, seen, steps = (
         np.concatenate([of(e) for e in episodes])
-        for of in (attrgetter("values"), attrgetter("observed"), _steps)
+        for of in (attrgetter("values"), attrgetter("observed"), _seen, _steps)
     )
-    whole = Episode("all", None, values, observed)
-    channels = tuple(_channel(recording, i, whole, steps[:, i]) for i in range(values.shape[1]))
-    widths = np.array([(c.high or 0.0) - (c.low or 0.0) for c in channels])
+    low = np.where(seen, values, np.inf).min(axis=0, initial=np.inf)
+    high = np.where(seen, values, -np.inf).max(axis=0, initial=-np.inf)
+    widths = np.where(low <= high, high, 0.0) - np.where(low <= high, low, 0.0)
     usual = [i for i, c in enumerate(recording.channels) if c in recording.usual]
     times = [e.times for e in episodes if e.times is not None]
     rising = [t for t in times if np.isfinite(t).all() and (np.diff(t) > 0).all()]
@@ -106,7 +106,10 @@ def survey(recording: Recording) -> Survey:
         rate,
         _jitter(rising, rate),
         tuple(_episode(e, widths, usual, rate) for e in episodes),
-        channels,
+        tuple(
+            _channel(recording, i, values[:, i], observed[:, i], steps[:, i], (low[i], high[i]))
+            for i in range(len(recording.channels))
+        ),
     )
 
 
@@ -136,18 +139,21 @@ def _episode(
 
 
 def _channel(
-    recording: Recording, column: int, whole: Episode, steps: Float[ndarray, " _"]
+    recording: Recording,
+    column: int,
+    values: Float[ndarray, " N"],
+    observed: Bool[ndarray, " N"],
+    steps: Float[ndarray, " _"],
+    extremes: tuple[float, float],
 ) -> ChannelNumbers:
-    name = recording.channels[column]
-    values, observed = whole.values[:, column], whole.observed[:, column]
-    seen, steps = values[observed & np.isfinite(values)], steps[~np.isnan(steps)]
-    low, high = (float(seen.min()), float(seen.max())) if len(seen) else (0.0, 0.0)
+    name, (low, high) = recording.channels[column], map(float, extremes)
+    steps = steps[~np.isnan(steps)]
     return ChannelNumbers(
         name,
         recording.units[column],
         name in recording.usual,
-        low if len(seen) else None,
-        high if len(seen) else None,
+        low if low <= high else None,
+        high if low <= high else None,
         float(steps.mean()) if len(steps) else None,
         _share(steps <= STILL_STEP * (high - low)),
         _share(~observed),

@@ -6,6 +6,8 @@ names no columns: a dataset that we wrote says in its attributes `names` and `un
 """
 
 import json
+import subprocess
+import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
@@ -15,7 +17,6 @@ import numpy as np
 
 from motionese.errors import RecordingError
 from motionese.recordings.formats.conventions import WIDEST, imported, natural, strings, why
-from motionese.recordings.formats.robomimic_damage import check_walkable
 from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.rate import FASTEST_HZ
 from motionese.recordings.recording import Episode, Recording
@@ -25,6 +26,18 @@ DERIVED = "derived_from"
 
 _NO_ENVIRONMENT = {"env_name": "recording", "type": 2}
 """robomimic asks for a kind of environment (2: gym) even where none is ever made."""
+SECONDS = 30.0
+"""The longest `_WALK`: one over thousands of demonstrations takes a few."""
+_WALK = """
+import sys, h5py
+from contextlib import suppress
+def visit(name, item):
+    for key in item.attrs:
+        with suppress(Exception):
+            item.attrs[key]
+with h5py.File(sys.argv[1], "r") as file:
+    file.visititems(visit)
+"""
 
 
 class _Columns(NamedTuple):
@@ -42,7 +55,7 @@ def read(path: Path) -> Recording:
     actions where there are none.
     """
     h5py = imported("h5py", "hdf5", "reading robomimic's HDF5")
-    check_walkable(path)
+    _check_walkable(path)
     try:
         with h5py.File(path, "r") as file:
             return _recording(path, file)
@@ -71,6 +84,22 @@ def write(path: Path, recording: Recording) -> None:
         for i, episode in enumerate(recording.episodes):
             _write_demo(data.create_group(f"demo_{i}"), episode, recording)
     write_file(path, content.getvalue())
+
+
+def _check_walkable(path: Path) -> None:
+    """Let a child process walk over the file's groups and attributes before we do.
+
+    The HDF5 library crashes or hangs on damaged files: of those with a few random bytes changed
+    about one in a hundred takes the process down or keeps it for ever, nearly always in an
+    attribute of variable length. What the walk merely refuses is left to the reading.
+    """
+    try:
+        command = [sys.executable, "-P", "-c", _WALK, str(path)]
+        walk = subprocess.run(command, capture_output=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired as error:
+        raise RecordingError(f"{path}: damaged: HDF5 does not get through it") from error
+    if walk.returncode < 0:
+        raise RecordingError(f"{path}: damaged: HDF5 crashes on it (signal {-walk.returncode})")
 
 
 def _recording(path: Path, file: Any) -> Recording:
