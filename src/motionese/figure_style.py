@@ -58,8 +58,8 @@ class Drawing:
         text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
         text = re.sub(r'<g id="[^"]*"', "<g", text)
         text = re.sub(r"'DejaVu Sans'[^;\"]*", "var(--sans)", text)
-        text = re.sub(r'^<svg ([^>]*?)width="[^"]*"', r"<svg \1", text, count=1)
-        text = re.sub(r'^<svg ([^>]*?)height="[^"]*"', r"<svg \1", text, count=1)
+        for size in ("width", "height"):
+            text = re.sub(rf'^<svg ([^>]*?){size}="[^"]*"', r"<svg \1", text, count=1)
         for role, colour in ROLES.items():
             text = text.replace(colour, f"var(--{role})")
         return text

@@ -20,7 +20,6 @@ class Geometry:
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        """Read the shapes from a robot's model, see `load_model`."""
         self._model, self._data = model, mujoco.MjData(model)
         self.bodies = tuple(_plain(model.body(i).name) for i in range(model.nbody))
         self.shapes = tuple(self._shape(i) for i in range(model.ngeom))

@@ -144,8 +144,18 @@ class TabletopRobot(SimulatedRobot, Generic[Settings]):
 
         Where the arm gives way (weight, a pressed button) the command lies beyond the angles.
         """
+
+        def check_reached(marker: Float[ndarray, "3"]) -> None:
+            miss = float(np.linalg.norm(marker - position))
+            if not miss <= tolerance_m:
+                x, y, z = position
+                raise TaskError(
+                    f"{name} ({x:.3f}, {y:.3f}, {z:.3f}) m is {100 * miss:.1f} cm out of the arm's "
+                    f"reach, {100 * tolerance_m:g} cm are allowed: {self.reach}"
+                )
+
         target = self.angles_nearest(position)
-        self._check_reached(self.marker_at(target), position, tolerance_m, name)
+        check_reached(self.marker_at(target))
         trial, command, gaze = self._simulate(), target, 0.0 * self.aimed_at(position)
         for _ in range(12):
             trial.place(command, gaze, _AWAY)
@@ -153,23 +163,8 @@ class TabletopRobot(SimulatedRobot, Generic[Settings]):
                 trial.advance(command, gaze)
             settled = trial.angles[self._commanded]
             command = np.clip(command + target - settled, *self.command_range)
-        self._check_reached(trial.marker("own"), position, tolerance_m, name)
+        check_reached(trial.marker("own"))
         return command
-
-    def _check_reached(
-        self,
-        marker: Float[ndarray, "3"],
-        position: Float[ndarray, "3"],
-        tolerance_m: float,
-        name: str,
-    ) -> None:
-        miss = float(np.linalg.norm(marker - position))
-        if not miss <= tolerance_m:
-            x, y, z = position
-            raise TaskError(
-                f"{name} ({x:.3f}, {y:.3f}, {z:.3f}) m is {100 * miss:.1f} cm out of the arm's "
-                f"reach, {100 * tolerance_m:g} cm are allowed: {self.reach}"
-            )
 
     def _simulate(self) -> Simulation:
         sensed = self.channels.names[:-2]
