@@ -19,7 +19,7 @@ from numpy import ndarray
 from motionese.errors import RecordingError, unknown
 from motionese.recordings.formats import csv_columns
 from motionese.recordings.formats.conventions import natural
-from motionese.recordings.formats.csv_columns import EPISODE, TIME, label
+from motionese.recordings.formats.csv_columns import EPISODE, TIME
 from motionese.recordings.formats.csv_table import Table, read_table
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
@@ -56,7 +56,8 @@ def write(path: Path, recording: Recording) -> None:
     table = csv.writer(text, lineterminator="\n")
     times = [e.times_at(recording.rate_hz) for e in recording.episodes]
     timed = all(t is not None for t in times)
-    labels = [label(c, u) for c, u in zip(recording.channels, recording.units, strict=True)]
+    named = zip(recording.channels, recording.units, strict=True)
+    labels = [csv_columns.label(name, unit) for name, unit in named]
     table.writerow([EPISODE[0], *([f"{TIME[0]} [s]"] if timed else []), *labels])
     for episode, stamps in zip(recording.episodes, times, strict=True):
         columns: list[Iterable[str]] = [[episode.name] * len(episode.values)]

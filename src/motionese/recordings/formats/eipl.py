@@ -25,8 +25,8 @@ def read(path: Path) -> Recording:
     parts = [p for p in (path, path / "train", path / "test") if (p / JOINTS).is_file()]
     if not parts:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
-    (_, channels, _), *_ = contents = [(part, *_part(part)) for part in parts]
-    episodes = []
+    contents = [(part, *_part(part)) for part in parts]
+    channels, episodes = contents[0][1], []
     for part, names, rows in contents:
         if names != channels:
             raise RecordingError(
