@@ -25,7 +25,7 @@ class Geometry:
         self.shapes = tuple(self._shape(i) for i in range(model.ngeom))
 
     def placed(self, poses: Float[ndarray, "T P"]) -> Float[ndarray, "T B 7"]:
-        """Return position [m, world] and quaternion (w, x, y, z) of every body in kept `pose`s."""
+        """Return position [m, world] and quaternion (w, x, y, z) of every body, see `pose`."""
         model, data = self._model, self._data
         bodies = np.empty((len(poses), model.nbody, 7))
         for body, pose in zip(bodies, poses, strict=True):

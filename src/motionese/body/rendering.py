@@ -52,7 +52,7 @@ def pictures(
     camera: Literal["outside", "eye"] = "outside",
     size: tuple[int, int] = (320, 240),
 ) -> UInt8[ndarray, "N height width 3"]:
-    """Draw kept `pose`s of a robot as pictures in red, green and blue.
+    """Draw what a robot's `pose` returned as pictures in red, green and blue.
 
     Args:
         camera: "outside", beside the table, or "eye", from where the robot sees.
