@@ -54,22 +54,20 @@ __version__ = "0.1.0"
 _ROOMS = {
     "channels": ("Channel", "Channels"),
     "interfaces.onnx_export": ("export_onnx",),
+    "interfaces.estimator": ("MTRNNImitator",),
     "network": ("MTRNN", "Level", "grow"),
 }
-
-_WITH_AN_EXTRA = {"MTRNNImitator": "interfaces.estimator"}
-"""Public names that need an extra's package, and are not in `__all__`: `import *` asks for all."""
+"""Where public names are written if not in `learning`. `MTRNNImitator` needs an extra's package and
+is not in `__all__`: `import *` asks for all."""
 
 
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, so that the command line answers at once."""
-    if name in _WITH_AN_EXTRA:
-        return getattr(import_module(f"{__name__}.{_WITH_AN_EXTRA[name]}"), name)
-    if name not in __all__:
-        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     room = next((room for room, names in _ROOMS.items() if name in names), "learning")
+    if room == "learning" and name not in __all__:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     return getattr(import_module(f"{__name__}.{room}"), name)
 
 
 def __dir__() -> list[str]:
-    return [*__all__, *_WITH_AN_EXTRA, "__version__"]
+    return [*__all__, "MTRNNImitator", "__version__"]

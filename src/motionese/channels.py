@@ -4,7 +4,7 @@ Scaling belongs to the channels, not to the data: a saved network carries its ch
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, overload
 
@@ -54,14 +54,12 @@ class Channels(Sequence[Channel]):
     @property
     def spans(self) -> Float[ndarray, " D"]:
         """The width of each channel's range, in its unit."""
-        spans: Float[ndarray, " D"] = self._span.copy()
-        return spans
+        return np.array(self._span)
 
     @property
     def interval_widths(self) -> Float[ndarray, " D"]:
         """How much of each channel's unit the whole unit interval stands for."""
-        widths: Float[ndarray, " D"] = self._span / (INNER_HIGH - INNER_LOW)
-        return widths
+        return np.asarray(self._span / (INNER_HIGH - INNER_LOW))
 
     def indices(self, names: Iterable[str]) -> Int[ndarray, " K"]:
         """Return the columns of the named channels; `ChannelError` for a name that is not here."""
@@ -98,9 +96,6 @@ class Channels(Sequence[Channel]):
 
     def __len__(self) -> int:
         return len(self._channels)
-
-    def __iter__(self) -> Iterator[Channel]:
-        return iter(self._channels)
 
     def __eq__(self, other: Any) -> bool:
         return isinstance(other, Channels) and self._channels == other._channels

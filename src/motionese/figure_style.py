@@ -23,30 +23,21 @@ ROLES = {
 """Names by which a page may give these colours others, as on dark ground."""
 
 SETTINGS = {
+    **dict.fromkeys(("text.color", "axes.labelcolor", "xtick.labelcolor", "ytick.labelcolor"), INK),
+    **dict.fromkeys(("axes.edgecolor", "grid.color", "xtick.color", "ytick.color"), FAINT),
+    **dict.fromkeys(("axes.spines.top", "axes.spines.right", "axes.grid", "legend.frameon"), False),
+    "figure.facecolor": PAPER,
+    "axes.facecolor": "none",
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10,
+    "axes.labelsize": 9.5,
     "font.family": "DejaVu Sans",
     "font.size": 9.5,
-    "axes.titlesize": 10,
-    "axes.titlelocation": "left",
-    "axes.labelsize": 9.5,
     "legend.fontsize": 9,
-    "legend.frameon": False,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "axes.facecolor": "none",
-    "axes.grid": False,
-    "grid.color": FAINT,
     "grid.alpha": 0.25,
     "grid.linewidth": 0.6,
-    "xtick.color": FAINT,
-    "ytick.color": FAINT,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "text.color": INK,
     "lines.linewidth": 1.8,
     "lines.markersize": 4.5,
-    "figure.facecolor": PAPER,
     "figure.constrained_layout.use": True,
     "svg.fonttype": "none",
     "path.simplify": False,
@@ -67,8 +58,8 @@ class Drawing:
         text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
         text = re.sub(r'<g id="[^"]*"', "<g", text)
         text = re.sub(r"'DejaVu Sans'[^;\"]*", "var(--sans)", text)
-        text = re.sub(r'^<svg ([^>]*?)width="[^"]*"', r"<svg \1", text, count=1)
-        text = re.sub(r'^<svg ([^>]*?)height="[^"]*"', r"<svg \1", text, count=1)
+        for size in ("width", "height"):
+            text = re.sub(rf'^<svg ([^>]*?){size}="[^"]*"', r"<svg \1", text, count=1)
         for role, colour in ROLES.items():
             text = text.replace(colour, f"var(--{role})")
         return text

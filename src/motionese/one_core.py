@@ -52,10 +52,9 @@ def cache_folder() -> Path:
     That is `$XDG_CACHE_HOME` if set, else `~/.cache`, `~/Library/Caches` or `%LOCALAPPDATA%`,
     and there `motionese/compiled-…`; it may be deleted at any time.
     """
-    default = {"darwin": "~/Library/Caches", "win32": "~/AppData/Local"}.get(
-        sys.platform, "~/.cache"
-    )
-    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or default
+    usual = {"darwin": "~/Library/Caches", "win32": "~/AppData/Local"}
+    told = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
+    base = told or usual.get(sys.platform, "~/.cache")
     return Path(base).expanduser() / "motionese" / f"compiled-{_processor():08x}"
 
 

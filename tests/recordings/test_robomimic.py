@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
-from motionese.recordings.formats import robomimic_damage
+from motionese.recordings.formats import robomimic
 
 
 @pytest.fixture
@@ -180,8 +180,8 @@ def test_a_file_that_is_cut_short_or_foreign_is_refused(ours):
     [("import os; os.abort()", "HDF5 crashes on it"), ("while True: pass", "does not get through")],
 )
 def test_a_file_that_takes_hdf5_down_does_not_take_us_down(ours, monkeypatch, walk, sentence):
-    monkeypatch.setattr(robomimic_damage, "_WALK", walk)
-    monkeypatch.setattr(robomimic_damage, "SECONDS", 0.5)
+    monkeypatch.setattr(robomimic, "_WALK", walk)
+    monkeypatch.setattr(robomimic, "SECONDS", 0.5)
     with pytest.raises(RecordingError, match=sentence):
         read(ours)
 
@@ -189,7 +189,7 @@ def test_a_file_that_takes_hdf5_down_does_not_take_us_down(ours, monkeypatch, wa
 @settings(max_examples=15)
 @given(st.data())
 def test_a_damaged_file_gives_a_recording_or_one_sentence(ours, monkeypatch, data):
-    monkeypatch.setattr(robomimic_damage, "SECONDS", 2.0)
+    monkeypatch.setattr(robomimic, "SECONDS", 2.0)
     content = ours.read_bytes()
     damaged = bytearray(content)
     for _ in range(data.draw(st.integers(1, 4))):

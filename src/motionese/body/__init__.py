@@ -23,8 +23,8 @@ from pydantic import Field
 from motionese.body.actroid import Actroid, ActroidSettings
 from motionese.body.desk_arm import DeskArm, DeskArmSettings
 from motionese.body.geometry import Geometry
-from motionese.body.pictures import pictures
 from motionese.body.protocol import Robot, SimulatedRobot
+from motionese.body.rendering import pictures
 from motionese.body.settings import SimulationSettings
 from motionese.body.tabletop_robot import TabletopRobot
 from motionese.task import Task

@@ -30,9 +30,8 @@ def composed(robot: str, task: Task) -> mujoco.MjModel:
     if task.fixtures:
         things = mujoco.MjSpec.from_string(task.fixtures)
         spec.attach(things, prefix=TASK, frame=spec.worldbody.add_frame())
-    room = mujoco.MjSpec.from_string(
-        files("motionese.body").joinpath("room.xml").read_text(encoding="utf-8")
-    )
+    xml = files("motionese.body").joinpath("room.xml").read_text(encoding="utf-8")
+    room = mujoco.MjSpec.from_string(xml)
     spec.option, spec.visual, spec.stat = room.option, room.visual, room.stat
     spec.attach(room, prefix=ROOM, frame=spec.worldbody.add_frame())
     for hand, marker in MARKERS.items():

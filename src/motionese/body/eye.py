@@ -1,7 +1,6 @@
 """Where the eye sees a marker: from the exact projection, or from the pixels of a picture."""
 
 import math
-from typing import Protocol, runtime_checkable
 
 import mujoco
 import numpy as np
@@ -9,14 +8,12 @@ from jaxtyping import Float, UInt8
 from numpy import ndarray
 
 from motionese.body.composition import MARKERS, Hand
-from motionese.body.rendering import open_renderer
+from motionese.body.rendering import HEAD_GROUP, open_renderer
 from motionese.body.settings import SimulationSettings
 from motionese.errors import RenderingError
 
 IMAGE_SIZE = (128, 96)
 """Width and height of the eye's picture [px]."""
-HEAD_GROUP = 2
-"""Geoms of this group surround the eye and are left out of its pictures."""
 REDNESS = 90
 """How far red must exceed green and blue [of 255] in a pixel of the marker."""
 
@@ -24,20 +21,6 @@ _MIDDLE = np.array(IMAGE_SIZE) / 2
 """The view's middle [px], counted from the picture's upper left edge, as MuJoCo projects."""
 _MIDDLE_PIXEL = _MIDDLE - 0.5
 """The view's middle [px], counted from the upper left pixel's centre, as OpenCV does."""
-
-
-@runtime_checkable
-class Eye(Protocol):
-    """Finds a marker in the view."""
-
-    def see(
-        self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator
-    ) -> Float[ndarray, "2"]:
-        """Return (u, v) [px from the view's middle; right, down] of a hand last seen at `last`.
-
-        Both are NaN where the hand is not seen.
-        """
-        ...
 
 
 class ProjectedEye:
@@ -78,8 +61,7 @@ class RenderedEye:
     def picture(self, data: mujoco.MjData) -> UInt8[ndarray, "96 128 3"]:
         """Return what the eye sees now, in red, green and blue."""
         self._renderer.update_scene(data, camera="eye", scene_option=self._option)
-        picture: UInt8[ndarray, "96 128 3"] = self._renderer.render()
-        return picture
+        return np.asarray(self._renderer.render())
 
     def see(
         self, data: mujoco.MjData, hand: Hand, last: Float[ndarray, "2"], rng: np.random.Generator
@@ -93,6 +75,11 @@ class RenderedEye:
             return np.full(2, np.nan)
         seen = np.array(middles[1:]) - _MIDDLE_PIXEL
         return np.array(seen[np.argmin(np.linalg.norm(seen - last, axis=-1))])
+
+
+Eye = ProjectedEye | RenderedEye
+"""Finds a hand, last seen at `last`, in the view: (u, v) [px from the view's middle; right, down],
+both NaN where it is not seen."""
 
 
 def focal_px(fovy: float) -> float:

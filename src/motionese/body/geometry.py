@@ -20,17 +20,12 @@ class Geometry:
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        """Read the shapes from a robot's model, see `load_model`."""
         self._model, self._data = model, mujoco.MjData(model)
         self.bodies = tuple(_plain(model.body(i).name) for i in range(model.nbody))
         self.shapes = tuple(self._shape(i) for i in range(model.ngeom))
 
     def placed(self, poses: Float[ndarray, "T P"]) -> Float[ndarray, "T B 7"]:
-        """Return position [m, world] and quaternion (w, x, y, z) of every body in kept poses.
-
-        Args:
-            poses: What the robot's `pose` returned at the wanted moments.
-        """
+        """Return position [m, world] and quaternion (w, x, y, z) of every body, see `pose`."""
         model, data = self._model, self._data
         bodies = np.empty((len(poses), model.nbody, 7))
         for body, pose in zip(bodies, poses, strict=True):

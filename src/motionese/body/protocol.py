@@ -1,5 +1,6 @@
 """What the imitation of motions needs of a robot, and what a simulated one offers beside."""
 
+from abc import abstractmethod
 from collections.abc import Mapping
 from typing import Protocol, runtime_checkable
 
@@ -32,19 +33,15 @@ class Robot(Protocol):
 
         Whatever is random until the next call (sensor noise) is drawn from `rng`.
         """
-        ...
 
     def sense(self) -> Float[ndarray, " D"]:
         """Return the channels' values now, in the channels' units; NaN where not observed."""
-        ...
 
     def command(self, angles: Float[ndarray, " J"]) -> None:
         """Command joint angles [rad], in force from now on; clamped to `command_range`."""
-        ...
 
     def step(self) -> None:
         """Let one control period, 1/`rate_hz`, pass."""
-        ...
 
 
 @runtime_checkable
@@ -62,27 +59,21 @@ class SimulatedRobot(Robot, Protocol):
 
     def watch(self, position: Float[ndarray, "3"], rng: np.random.Generator) -> None:
         """Begin to watch: the caregiver's marker at a position [m, world], the eye on it."""
-        ...
 
     def move_caregiver(self, position: Float[ndarray, "3"]) -> None:
         """Set where the caregiver's marker will be [m, world] at the end of the coming `step`."""
-        ...
 
     def caregiver_position(self) -> Float[ndarray, "3"]:
         """Return the true position of the caregiver's marker [m, world]."""
-        ...
 
     def hand_position(self) -> Float[ndarray, "3"]:
         """Return the true position of the robot's own marker [m, world]."""
-        ...
 
     def effects(self) -> Mapping[str, float]:
         """Return what the task's things tell now, by the effect's name, such as depths [mm]."""
-        ...
 
     def pose(self) -> Float[ndarray, " P"]:
         """Return what pictures need to draw this moment: `qpos`, and where the mocap body is."""
-        ...
 
     def command_reaching(
         self, position: Float[ndarray, "3"], *, tolerance_m: float = ..., name: str = ...
@@ -92,20 +83,15 @@ class SimulatedRobot(Robot, Protocol):
         Raises:
             TaskError: The marker stays further away than `tolerance_m` [m]; names the position.
         """
-        ...
 
+    @abstractmethod
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return the points [m, world] that the marker reaches nearest to those of a path."""
-        ...
 
+    @abstractmethod
     def bearing(self, values: Float[ndarray, "*shape D"]) -> Float[ndarray, "*shape 2"]:
-        """Return the direction in which the seen hand lies, from the channels' values.
+        """Return azimuth (to the robot's left) and elevation [rad] of the hand that is seen."""
 
-        Returns:
-            Azimuth [rad], positive to the robot's left, and elevation [rad], positive upwards.
-        """
-        ...
-
+    @abstractmethod
     def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
-        ...

@@ -1,13 +1,20 @@
-"""Opens MuJoCo's renderer, or says what is missing on this machine."""
+"""MuJoCo's renderer, or what is missing on this machine, and pictures of poses that were kept."""
 
 import importlib
 import os
 import platform
+from typing import Literal
 
 import mujoco
+import numpy as np
+from jaxtyping import Float, UInt8
+from numpy import ndarray
 
+from motionese.body.composition import ROOM
 from motionese.errors import RenderingError
 
+HEAD_GROUP = 2
+"""Geoms of this group surround the eye and are left out of its pictures."""
 _refused: list[RenderingError] = []
 """The first failure, if any: MuJoCo ends the whole process when a failed GL library is retried."""
 
@@ -36,6 +43,34 @@ def open_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Rend
         )
         _refused.append(refusal)
         raise refusal from fault
+
+
+def pictures(
+    model: mujoco.MjModel,
+    poses: Float[ndarray, "N P"],
+    *,
+    camera: Literal["outside", "eye"] = "outside",
+    size: tuple[int, int] = (320, 240),
+) -> UInt8[ndarray, "N height width 3"]:
+    """Draw what a robot's `pose` returned as pictures in red, green and blue.
+
+    Args:
+        camera: "outside", beside the table, or "eye", from where the robot sees.
+        size: Width and height [px], at most 640 × 480.
+    """
+    data = mujoco.MjData(model)
+    option = mujoco.MjvOption()
+    option.geomgroup[HEAD_GROUP] = camera != "eye"
+    name = camera if camera == "eye" else ROOM + camera
+    width, height = size
+    drawn = np.empty((len(poses), height, width, 3), dtype=np.uint8)
+    with open_renderer(model, width, height) as renderer:
+        for picture, pose in zip(drawn, poses, strict=True):
+            data.qpos[:], data.mocap_pos[0] = pose[: model.nq], pose[model.nq :]
+            mujoco.mj_forward(model, data)
+            renderer.update_scene(data, camera=name, scene_option=option)
+            renderer.render(out=picture)
+    return drawn
 
 
 def _choose_egl() -> None:

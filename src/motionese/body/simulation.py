@@ -6,6 +6,7 @@ from typing import Protocol, runtime_checkable
 import mujoco
 import numpy as np
 from jaxtyping import Float
+from mujoco import MjData, MjModel
 from numpy import ndarray
 
 from motionese.body.composition import MARKERS, TASK, Hand
@@ -16,49 +17,29 @@ from motionese.body.settings import PICTURES_HZ
 class Drive(Protocol):
     """A robot's actuators: what they are given so that its joints go where they are told."""
 
-    def place(
-        self, data: mujoco.MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]
-    ) -> None:
+    def place(self, data: MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]) -> None:
         """Put the joints at rest at these angles [rad], or above the table they would be in.
 
         Actuators are as they would be after a long rest there.
         """
-        ...
 
-    def press(
-        self, data: mujoco.MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]
-    ) -> None:
+    def press(self, data: MjData, angles: Float[ndarray, " J"], gaze: Float[ndarray, " G"]) -> None:
         """Set the actuators for commanded joints and neck [rad], until the next picture."""
-        ...
 
 
 class Simulation:
     """The physics; `place` restores all of it, so that no earlier use is felt."""
 
     def __init__(
-        self,
-        model: mujoco.MjModel,
-        drive: Drive,
-        *,
-        sensed: Sequence[str],
-        effects: Sequence[str],
+        self, model: MjModel, drive: Drive, *, sensed: Sequence[str], effects: Sequence[str]
     ) -> None:
-        """Open a robot's model.
-
-        Args:
-            model: Robot, things and caregiver's hand.
-            drive: The robot's actuators.
-            sensed: The joints whose angles are sensed.
-            effects: The slide joints of the task's things.
-        """
-        self.model, self.data, self._drive = model, mujoco.MjData(model), drive
+        """Open a model, see `composed`; by name its sensed joints and its things' slide joints."""
+        self.model, self.data, self._drive = model, MjData(model), drive
         self.substeps = round(1 / PICTURES_HZ / model.opt.timestep)
         self._sensed = [model.joint(name).qposadr[0] for name in sensed]
-        things = [model.joint(TASK + name) for name in effects]
-        self._effects = {
-            name: joint.qposadr[0] for name, joint in zip(effects, things, strict=True)
-        }
-        self._down = [joint.range[0] for joint in things]
+        things = {name: model.joint(TASK + name) for name in effects}
+        self._effects = {name: joint.qposadr[0] for name, joint in things.items()}
+        self._down = [joint.range[0] for joint in things.values()]
         self._markers = {hand: model.site(site).id for hand, site in MARKERS.items()}
 
     def place(
@@ -107,10 +88,8 @@ class Simulation:
     @property
     def effects(self) -> dict[str, float]:
         """How deep each of the task's things is pushed down [mm]."""
-        return {
-            name: max(0.0, -1000.0 * float(self.data.qpos[adr]))
-            for name, adr in self._effects.items()
-        }
+        height = self.data.qpos
+        return {n: max(0.0, -1000.0 * float(height[adr])) for n, adr in self._effects.items()}
 
     def marker(self, hand: Hand) -> Float[ndarray, "3"]:
         """Return where the marker of a hand is [m, world]."""

@@ -1,6 +1,6 @@
 """What every simulated robot has: trials, senses, time, and the command that reaches a position."""
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from typing import ClassVar, Generic, TypeVar
 
 import mujoco
@@ -10,9 +10,9 @@ from numpy import ndarray
 
 from motionese.body.composition import Hand
 from motionese.body.eye import Eye, ProjectedEye, open_eye
+from motionese.body.protocol import SimulatedRobot
 from motionese.body.settings import PICTURES_HZ, SimulationSettings
 from motionese.body.simulation import Drive, Simulation
-from motionese.channels import Channels
 from motionese.errors import MotionError, TaskError
 from motionese.task import Task
 
@@ -22,33 +22,23 @@ _AWAY = np.array([1.30, 1.10, 0.95])
 Settings = TypeVar("Settings", bound=SimulationSettings)
 
 
-class TabletopRobot(ABC, Generic[Settings]):
-    """A robot at a table, face to face with the caregiver; fills `SimulatedRobot`.
+class TabletopRobot(SimulatedRobot, Generic[Settings]):
+    """A robot at a table, face to face with the caregiver.
 
     A trial begins with `reset` (the robot acts) or `watch` (the robot sees a demonstration). Both
     restore the whole simulation and let it settle for 1.5 s while the eye finds the hand.
 
     A robot adds its model and its actuators, its kinematics (`marker_at` and `angles_nearest`: the
-    marker's position by joint angles, and back), its gaze (`aimed_at`, `followed`; an array without
-    numbers where the eye is fixed) and how the hand it sees lies in space (`bearing`, `met`).
+    marker's position by joint angles, and back), unless its eye stands still its gaze (`aimed_at`,
+    `followed`), and how the hand it sees lies in space (`bearing`, `met`).
 
     Attributes:
         channels: What is sensed: angles of joints [rad] by the joints' names, then u, v [px].
-        joints: The commanded joints.
-        command_range: Lowest and highest angles [rad] that may be commanded.
         folded: Angles [rad] of the arm at rest out of the eye's view, away from the task's things.
-        eye_position: Where the eye is [m, world].
         reach: What the hand reaches, in words.
-
-    Raises:
-        RenderingError: The settings ask for a rendered view, and this machine renders no pictures.
     """
 
-    channels: Channels
-    joints: tuple[str, ...]
-    command_range: Float[ndarray, "2 J"]
     folded: ClassVar[Float[ndarray, " J"]]
-    eye_position: Float[ndarray, "3"]
     reach: ClassVar[str]
 
     def __init__(self, settings: Settings, task: Task) -> None:
@@ -81,41 +71,23 @@ class TabletopRobot(ABC, Generic[Settings]):
     def angles_nearest(self, position: Float[ndarray, "3"]) -> Float[ndarray, " J"]:
         """Return the angles [rad], of those that may be commanded, nearest to a position [m]."""
 
-    @abstractmethod
     def aimed_at(self, position: Float[ndarray, "3"]) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad] that bring a position [m] into the view's middle."""
+        return np.zeros(0)
 
-    @abstractmethod
     def followed(
         self, gaze: Float[ndarray, " G"], seen: Float[ndarray, "2"]
     ) -> Float[ndarray, " G"]:
         """Return the neck's angles [rad], corrected for a hand seen at (u, v) [px]."""
-
-    @abstractmethod
-    def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return the points [m, world] that the marker reaches nearest to those of a path."""
-
-    @abstractmethod
-    def bearing(self, values: Float[ndarray, "*shape D"]) -> Float[ndarray, "*shape 2"]:
-        """Return azimuth and elevation [rad] of the seen hand, from the channels' values."""
-
-    @abstractmethod
-    def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
+        return gaze
 
     def reset(self, posture: Float[ndarray, " J"], rng: np.random.Generator) -> None:
-        """Begin to act: arm settled at the commanded angles [rad], eye on its own hand.
-
-        The caregiver's hand is away. `rng` gives the noise of all pictures until the next trial.
-        """
+        """Begin to act: arm settled at the commanded angles [rad]; the caregiver's hand is away."""
         arm = np.clip(posture, *self.command_range)
         self._begin("own", arm, self.aimed_at(self.marker_at(arm)), _AWAY, rng)
 
     def watch(self, position: Float[ndarray, "3"], rng: np.random.Generator) -> None:
-        """Begin to watch: the caregiver's marker at a position [m, world], the eye on it.
-
-        The robot's arm is folded. `rng` gives the noise of all pictures until the next trial.
-        """
+        """Begin to watch the caregiver's marker at a position [m, world], the own arm folded."""
         self._begin("caregiver", self.folded, self.aimed_at(position), position, rng)
 
     def command(self, angles: Float[ndarray, " J"]) -> None:
@@ -171,12 +143,19 @@ class TabletopRobot(ABC, Generic[Settings]):
         """Return the command [rad] under which the marker settles at a position [m, world].
 
         Where the arm gives way (weight, a pressed button) the command lies beyond the angles.
-
-        Raises:
-            TaskError: The marker stays further away than `tolerance_m` [m]; names the position.
         """
+
+        def check_reached(marker: Float[ndarray, "3"]) -> None:
+            miss = float(np.linalg.norm(marker - position))
+            if not miss <= tolerance_m:
+                x, y, z = position
+                raise TaskError(
+                    f"{name} ({x:.3f}, {y:.3f}, {z:.3f}) m is {100 * miss:.1f} cm out of the arm's "
+                    f"reach, {100 * tolerance_m:g} cm are allowed: {self.reach}"
+                )
+
         target = self.angles_nearest(position)
-        self._check_reached(self.marker_at(target), position, tolerance_m, name)
+        check_reached(self.marker_at(target))
         trial, command, gaze = self._simulate(), target, 0.0 * self.aimed_at(position)
         for _ in range(12):
             trial.place(command, gaze, _AWAY)
@@ -184,23 +163,8 @@ class TabletopRobot(ABC, Generic[Settings]):
                 trial.advance(command, gaze)
             settled = trial.angles[self._commanded]
             command = np.clip(command + target - settled, *self.command_range)
-        self._check_reached(trial.marker("own"), position, tolerance_m, name)
+        check_reached(trial.marker("own"))
         return command
-
-    def _check_reached(
-        self,
-        marker: Float[ndarray, "3"],
-        position: Float[ndarray, "3"],
-        tolerance_m: float,
-        name: str,
-    ) -> None:
-        miss = float(np.linalg.norm(marker - position))
-        if not miss <= tolerance_m:
-            x, y, z = position
-            raise TaskError(
-                f"{name} ({x:.3f}, {y:.3f}, {z:.3f}) m is {100 * miss:.1f} cm out of the arm's "
-                f"reach, {100 * tolerance_m:g} cm are allowed: {self.reach}"
-            )
 
     def _simulate(self) -> Simulation:
         sensed = self.channels.names[:-2]

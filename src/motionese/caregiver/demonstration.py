@@ -1,6 +1,7 @@
 """A demonstration: the path of the caregiver's hand, and the rows at which its primitives begin."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -16,7 +17,7 @@ class Demonstration:
     """A sequence as it was shown.
 
     Attributes:
-        path: The hand's positions [m, world], one row a control period. [T, 3]
+        path: The hand's positions [m, world], one row a control period.
         begins: The row at which each primitive begins: the hand is still at its start place.
     """
 
@@ -24,9 +25,7 @@ class Demonstration:
     begins: tuple[int, ...]
 
     def __post_init__(self) -> None:
-        rising = all(
-            a < b for a, b in zip(self.begins, (*self.begins[1:], len(self.path)), strict=True)
-        )
+        rising = all(a < b for a, b in pairwise((*self.begins, len(self.path))))
         if not self.begins or self.begins[0] != 0 or not rising:
             raise TaskError(
                 f"the primitives of a demonstration of {len(self.path)} rows must begin at rising "
@@ -40,4 +39,3 @@ class Caregiver(Protocol):
 
     def demonstrate(self, sequence: PrimitiveSequence, rng: np.random.Generator) -> Demonstration:
         """Show a sequence; whatever is random is drawn from `rng`."""
-        ...

@@ -7,9 +7,10 @@ shows it, so that an experiment needs no whole set.
 
 import hashlib
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -40,12 +41,7 @@ class RecordedCaregiver:
     def __init__(
         self, recordings: Mapping[str, list[Demonstration]], otherwise: Caregiver | None = None
     ) -> None:
-        """Take demonstrations by the sequence's name, at the body's rate.
-
-        Args:
-            recordings: The demonstrations.
-            otherwise: Who shows what was not recorded.
-        """
+        """Take demonstrations by the sequence's name; `otherwise` shows what was not recorded."""
         self.recordings, self.otherwise = dict(recordings), otherwise
 
     def demonstrate(self, sequence: PrimitiveSequence, rng: np.random.Generator) -> Demonstration:
@@ -58,14 +54,8 @@ class RecordedCaregiver:
         return recorded[int(rng.integers(len(recorded)))]
 
 
-@dataclass(frozen=True)
-class Recorded:
-    """Recorded demonstrations.
-
-    Attributes:
-        recordings: The demonstrations by the sequence's name, for `RecordedCaregiver`.
-        digest: Tells these demonstrations from others.
-    """
+class Recorded(NamedTuple):
+    """Demonstrations by the sequence's name, and a digest that tells them from others."""
 
     recordings: dict[str, list[Demonstration]]
     digest: str
@@ -76,27 +66,21 @@ def recording_of(
 ) -> Recording | None:
     """Return hands' paths [m, world] by what they show as a recording; None if there are none."""
     episodes: list[Episode] = []
-    counts: dict[str, int] = {}
+    counts = Counter[str]()
     for shows, path in paths:
-        number = counts[shows] = counts.get(shows, 0) + 1
-        name = shows if number == 1 else f"{shows} ({number})"
-        episodes.append(Episode(name, None, path, np.ones(path.shape, dtype=bool)))
-    if not episodes:
-        return None
-    return Recording(
-        Path(DEMONSTRATIONS), CHANNELS, ("m",) * 3, {}, rate_hz, tuple(episodes), CHANNELS
-    )
+        counts[shows] += 1
+        name = shows if counts[shows] == 1 else f"{shows} ({counts[shows]})"
+        episodes.append(Episode.whole(name, path))
+    file, units = Path(DEMONSTRATIONS), ("m",) * 3
+    whole = Recording(file, CHANNELS, units, {}, rate_hz, tuple(episodes), CHANNELS)
+    return whole if episodes else None
 
 
 def read_recorded(path: Path, task: Task, manner: Manner, body: SimulatedRobot) -> Recorded:
     """Read recorded demonstrations; each is played at the tempo of the scripted caregiver.
 
-    Args:
-        path: A session's folder, or recordings in any format whose channels are the hand's
-            position.
-        task: The task.
-        manner: The scripted caregiver's way of moving, hence the tempo.
-        body: The robot they are shown to.
+    They lie in a session's folder, or are recordings in any format whose channels are the hand's
+    position.
 
     Raises:
         MotioneseError: No such recordings, an episode that is named by no sequence of the task or

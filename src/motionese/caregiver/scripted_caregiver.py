@@ -4,6 +4,8 @@ Strokes go the primitive's way between its places, over what the robot's hand ca
 shown can be imitated exactly, as when a caregiver adapts to a child's arm.
 """
 
+from itertools import accumulate
+
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
@@ -39,10 +41,8 @@ class Manner(BaseModel):
 
     def begins(self, sequence: PrimitiveSequence) -> tuple[int, ...]:
         """Return the rows at which the sequence's primitives begin, and how many rows it has."""
-        rows = [0]
-        for primitive in sequence.primitives:
-            rows.append(rows[-1] + self.stroke_rows(primitive) + self.rest_steps)
-        return tuple(rows)
+        rows = (self.stroke_rows(p) + self.rest_steps for p in sequence.primitives)
+        return tuple(accumulate(rows, initial=0))
 
     def rows(self, sequence: PrimitiveSequence) -> int:
         """Return how many rows, one a control period, showing a sequence takes."""
@@ -57,7 +57,6 @@ class ScriptedCaregiver:
     """A caregiver who moves as a `Manner` says."""
 
     def __init__(self, task: Task, manner: Manner, body: SimulatedRobot) -> None:
-        """Show a task to a robot."""
         self.task, self.manner, self.body = task, manner, body
 
     def demonstrate(self, sequence: PrimitiveSequence, rng: np.random.Generator) -> Demonstration:

@@ -24,8 +24,7 @@ def intended_way(
     """Return points [m, world], evenly along a sequence's way."""
     share = np.linspace(0.0, 1.0, points)
     strokes = [
-        primitive.way(share, task.position(primitive.start), task.position(primitive.end))
-        for primitive in sequence.primitives
+        p.way(share, task.position(p.start), task.position(p.end)) for p in sequence.primitives
     ]
     return evenly_along(np.concatenate(strokes), points)
 

@@ -23,8 +23,7 @@ def moving(path: Float[ndarray, "R 3"], rest_steps: int) -> Float[ndarray, "M 3"
     kept: list[int] = [0]
     still = 0
     for row in range(1, len(path)):
-        rests = float(np.linalg.norm(path[row] - path[kept[-1]])) < STILL_M
-        still = still + 1 if rests else 0
+        still = still + 1 if _still(path, kept[-1], row) else 0
         if still <= (rest_steps if len(kept) > 1 else 0):
             kept.append(row)
     while len(kept) > 2 and _still(path, kept[-2], kept[-1]):

@@ -31,14 +31,12 @@ class Choice(BaseModel):
     A channel is chosen by its name or by a pattern such as "Head*" (`*`, `?`, `[abc]`).
 
     Attributes:
-        channels: Names or patterns, in the order wanted; the recording's usual ones for None.
-        exclude: Names or patterns of channels to leave out.
+        channels: In the order wanted; the recording's usual ones for None.
         rate_hz: Rows per second [Hz] at which it was recorded, where the file does not tell.
-        resample_hz: Rows per second [Hz] to resample to; none for None.
+        resample_hz: Rows per second [Hz] to resample to.
         trim: Rows at both ends are cut while no channel has moved by more than this share of
             its range; 0 for none.
         nan: Whether a NaN among the values is refused or taken as a gap.
-        units: Units by name or pattern.
         ranges: Ranges (low, high) by name or pattern; else what the file tells, else the data's.
         margin: How far a range taken from the data reaches beyond it, as a share of its width.
     """
@@ -75,14 +73,9 @@ def choose(**given: Any) -> Choice:
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:
-    """Return the recording with the chosen channels only, in the order chosen.
-
-    Raises:
-        ChannelError: A name or pattern that fits no channel, or no channel that is left.
-    """
-    everything, taken = recording.channels, recording.usual
-    if choice.channels is not None:
-        taken = matching(recording, choice.channels, everything)
+    """Return the recording with the chosen channels only, in the order chosen."""
+    everything, wanted = recording.channels, choice.channels
+    taken = recording.usual if wanted is None else matching(recording, wanted, everything)
     dropped = matching(recording, choice.exclude, everything)
     kept = tuple(c for c in taken if c not in dropped)
     if not kept:

@@ -1,6 +1,7 @@
 """Rows on an even grid: recorded at uneven times, filled hole by hole, or at another rate."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -24,18 +25,9 @@ def even(recording: Recording, rate_hz: float) -> Recording:
 
     Rows that are on the grid already are kept bit for bit. Otherwise every channel is
     interpolated linearly between its own observed samples; within a hole nothing is observed.
-
-    Raises:
-        RecordingError: The times of an episode span far more rows than it has.
     """
-
-    def on_grid(episode: Episode) -> Episode:
-        if episode.times is not None and len(episode.times) > 1:
-            at = (episode.times - episode.times[0]) * rate_hz
-            episode = _on_grid(recording, episode, at)
-        return replace(episode, times=None)
-
-    return replace(recording.map(on_grid), rate_hz=rate_hz)
+    on_grid = recording.map(lambda e: replace(_on_grid(recording.source, e, rate_hz), times=None))
+    return replace(on_grid, rate_hz=rate_hz)
 
 
 def resampled(recording: Recording, rate_hz: float) -> Recording:
@@ -44,9 +36,6 @@ def resampled(recording: Recording, rate_hz: float) -> Recording:
     Going down, every channel is averaged first, over a window of one new interval around each
     row, so that nothing faster folds into the new rate and nothing is delayed. A new row is
     observed where both rows around it were.
-
-    Raises:
-        SettingError: The rate would be raised more than a hundredfold.
     """
     assert recording.rate_hz is not None
     step = recording.rate_hz / rate_hz
@@ -61,22 +50,23 @@ def resampled(recording: Recording, rate_hz: float) -> Recording:
     return replace(changed, rate_hz=rate_hz)
 
 
-def _on_grid(recording: Recording, episode: Episode, at: Float[ndarray, " T"]) -> Episode:
-    """Return an episode whose rows were recorded `at` these positions, in rows of the grid."""
+def _on_grid(source: Path, episode: Episode, rate_hz: float) -> Episode:
+    if episode.times is None or len(episode.times) < 2:
+        return episode
+    at = (episode.times - episode.times[0]) * rate_hz
     if np.abs(at - np.arange(len(at))).max() <= JITTER:
         return episode
     if at[-1] > LONGEST * len(at):
         raise RecordingError(
-            f"{recording.source}: episode '{episode.name}' has {len(at)} rows, "
+            f"{source}: episode '{episode.name}' has {len(at)} rows, "
             f"but its times span {at[-1]:.3g}; check its times"
         )
     grid = np.arange(int(at[-1] + JITTER) + 1, dtype=np.float64)
-    values = np.zeros((len(grid), len(recording.channels)))
+    values = np.zeros((len(grid), episode.values.shape[1]))
     observed = np.zeros(values.shape, dtype=bool)
     for column, seen in enumerate(episode.observed.T):
         if seen.any():
-            samples = episode.values[seen, column]
-            values[:, column] = np.interp(grid, at[seen], samples)
+            values[:, column] = np.interp(grid, at[seen], episode.values[seen, column])
             observed[:, column] = _near(grid, at[seen])
     return Episode(episode.name, None, values, observed)
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import ChannelError, MotionError
@@ -21,9 +21,10 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
 
     Raises:
-        ChannelError: A channel that does not exist, or whose range cannot be told.
+        ChannelError: A channel that does not exist, or whose range cannot be told, or none left.
         MotionError: A value that is not finite, or an episode of fewer than two rows.
-        RecordingError: A rate that nobody tells or that differs, or times that do not rise.
+        RecordingError: A rate that nobody tells or that differs, or times that do not rise, are in
+            another unit, or span far more rows than there are.
         SettingError: A rate to resample to that is out of reach.
     """
     recording = finite(chosen(recording, choice), nan_is_gap=choice.nan == "gap")
@@ -38,15 +39,10 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
 
 
 def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
-    """Return the recording with finite values wherever something was observed.
-
-    Raises:
-        MotionError: An infinite value, or a NaN that is no gap.
-    """
+    """Return the recording with finite values wherever something was observed."""
     if nan_is_gap:
         recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
-    wrong = recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST))
-    if wrong is not None:
+    if wrong := recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST)):
         where, value = wrong
         hint = "; --nan gap takes NaN as not observed" if np.isnan(value) else ""
         raise MotionError(
@@ -76,16 +72,14 @@ def trimmed(
 
 def still_ends(episode: Episode, limits: Float[ndarray, " D"]) -> tuple[int, int]:
     """Return how many rows at the start and at the end can be cut, one still row being kept."""
-    values, observed = episode.values, episode.observed
-    at_end = _still_rows(values[::-1], observed[::-1], limits)
-    return _still_rows(values, observed, limits), at_end
+    backwards = episode.part(slice(None, None, -1))
+    return _still_rows(episode, limits), _still_rows(backwards, limits)
 
 
 def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[float, float]:
     """Return the lowest and highest value, widened on both sides by a share of their distance.
 
-    Raises:
-        ChannelError: Nothing was observed, or it is always the same.
+    `ChannelError` if nothing was observed, or always the same.
     """
     if not len(seen) or seen.min() == seen.max():
         what = f"is always {seen[0]:g}" if len(seen) else "is never observed"
@@ -95,11 +89,7 @@ def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[floa
 
 
 def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
-    """Return the range of every channel: given by the user, told by the file, or of the data.
-
-    Raises:
-        ChannelError: A range for no channel, or a channel that has none and never changes.
-    """
+    """Return the range of every channel: given by the user, told by the file, or of the data."""
     ranges = dict(recording.ranges)
     for pattern, limits in choice.ranges.items():
         ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)
@@ -117,18 +107,16 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
 
 def _check_lengths(recording: Recording) -> None:
     for episode in recording.episodes:
-        rows = len(episode.values)
-        if rows < 2:
+        if (rows := len(episode.values)) < 2:
             raise MotionError(
                 f"{recording.source}: episode '{episode.name}' has "
                 f"{'1 row' if rows == 1 else 'no rows'}; at least 2 are needed"
             )
 
 
-def _still_rows(
-    values: Float[ndarray, "T D"], observed: Bool[ndarray, "T D"], limits: Float[ndarray, " D"]
-) -> int:
+def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     """Return the rows before the last one that is still at its channels' first values."""
+    values, observed = episode.values, episode.observed
     if not len(values):
         return 0
     first = values[np.argmax(observed, axis=0), np.arange(len(limits))]

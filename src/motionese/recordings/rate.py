@@ -21,12 +21,7 @@ SLOWEST_HZ, FASTEST_HZ = 1e-3, 1e6
 
 
 def rate_of(recording: Recording, given_hz: float | None) -> float:
-    """Return the rows per second [Hz] of a recording; the user's where the file tells none.
-
-    Raises:
-        RecordingError: Nobody tells it, the user and the file tell different ones, or the times
-            do not rise or are in another unit.
-    """
+    """Return the rows per second [Hz] of a recording; the user's where the file tells none."""
     shown = rate_of_times(_rising_times(recording))
     told = shown if recording.rate_hz is None else recording.rate_hz
     if told is None:

@@ -15,8 +15,7 @@ class Episode:
 
     Attributes:
         name: Unique in its recording.
-        times: When each row was recorded [s]; None where rows are evenly spaced at the
-            recording's rate.
+        times: Of the rows [s]; None where they are evenly spaced at the recording's rate.
         values: In the channels' units; anything where nothing was observed.
         observed: False only where the file says that nothing was recorded: an empty cell, no
             message of that topic, a mask. A NaN that was written as a value counts as observed.

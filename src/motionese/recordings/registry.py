@@ -17,7 +17,9 @@ class Format:
 
     Attributes:
         what: What is read, in words.
-        module: Its functions are `read(path) -> Recording` and `write(path, recording)`.
+        module: Its functions are `read(path) -> Recording` and `write(path, recording)`. Both raise
+            `RecordingError` where a file is not what it should be, or cannot hold the recording or
+            be written, and `MissingPackageError` where the package of their extra is missing.
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
     """
@@ -69,7 +71,7 @@ def read(
         raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
     if not there:
         raise RecordingError(f"{path}: there is no such file or folder")
-    name = _known(format) if format is not None else _found(path)
+    name = _named(format) or _found(path)
     given = {k: v for k, v in (("episode", episode), ("time", time)) if v is not None}
     if given and name != "csv":
         raise SettingError(f"{path}: {next(iter(given))} names a column of csv; this is {name}")
@@ -77,39 +79,32 @@ def read(
 
 
 def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
-    """Write a recording, whole or not at all.
-
-    Args:
-        path: The file or folder to write.
-        recording: What to write.
-        format: One of `FORMATS`; from the suffix of `path` where left out.
+    """Write a recording, whole or not at all; the suffix of `path` tells a format not given.
 
     Raises:
         RecordingError: The format cannot hold the recording, or `path` cannot be written.
         SettingError: A format that does not exist, or none given and a suffix that tells none.
     """
     path = Path(path)
-    name = _known(format) if format is not None else _by_suffix(path)
+    name = _named(format) or _by_suffix(path)
     if name is None:
+        suffixes = (suffix for known in FORMATS.values() for suffix in known.suffixes)
         raise SettingError(
-            f"{path}: its name does not tell the format; end it in "
-            f"{', '.join(s for f in FORMATS.values() for s in f.suffixes)}, "
+            f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
             f"or name the format (--to), one of {', '.join(FORMATS)}"
         )
     FORMATS[name].module.write(path, _checked(recording))
 
 
-def _known(format: str) -> str:
-    if format not in FORMATS:
+def _named(format: str | None) -> str | None:
+    if format is not None and format not in FORMATS:
         raise SettingError(unknown("format", format, FORMATS))
     return format
 
 
 def _found(path: Path) -> str:
-    name = _by_suffix(path)
-    if path.is_dir():
-        holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
-        name = next(holding, None)
+    holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
+    name = next(holding, None) if path.is_dir() else _by_suffix(path)
     if name is None:
         known = ", ".join(f.what for f in FORMATS.values())
         raise RecordingError(f"{path}: not a recording that is read here: {known}")

@@ -1,8 +1,9 @@
 """What is in a recording, in numbers, whatever is wrong with it: what a user looks at first."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from operator import attrgetter
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -18,21 +19,16 @@ STILL_STEP = 0.001
 """Share of its range by which a channel that is still changes at most from row to row."""
 
 
-@dataclass(frozen=True)
-class EpisodeNumbers:
-    """One episode.
+class EpisodeNumbers(NamedTuple):
+    """One episode: how many `rows` it has, how many of its cells are NaN or infinite.
 
     Attributes:
-        name: Its name.
-        rows: How many there are.
         duration_s: From the first row to the last [s]; None where no time or rate is told.
         still_start: Share of its rows at the start in which nothing moves yet.
         still_end: Share of its rows at the end in which nothing moves any more.
         still: Share of its steps from row to row in which nothing moves.
         unobserved: Share of its cells in which nothing was observed.
         holes: How often its times leave out a row or more.
-        nan: Cells with a NaN.
-        infinite: Cells with an infinite value.
     """
 
     name: str
@@ -47,21 +43,16 @@ class EpisodeNumbers:
     infinite: int
 
 
-@dataclass(frozen=True)
-class ChannelNumbers:
-    """One channel over all episodes.
+class ChannelNumbers(NamedTuple):
+    """One channel over all episodes, in how many rows it is NaN or infinite.
 
     Attributes:
-        name: Its name.
-        unit: Its unit; empty where unknown.
+        unit: Empty where unknown.
         usual: Whether it is taken when no channels are chosen.
-        low: Lowest finite value [its unit]; None where there is none.
-        high: Highest finite value [its unit]; None where there is none.
+        low, high: Extremes of its finite values [its unit]; None where there are none.
         mean_step: Mean change from row to row [its unit]; None without two rows in a row.
         still: Share of its steps from row to row in which it does not move.
         unobserved: Share of rows in which it was not observed.
-        nan: Rows with a NaN.
-        infinite: Rows with an infinite value.
         given: The range that the file tells, if it does.
     """
 
@@ -78,17 +69,13 @@ class ChannelNumbers:
     given: tuple[float, float] | None
 
 
-@dataclass(frozen=True)
-class Survey:
+class Survey(NamedTuple):
     """A whole recording.
 
     Attributes:
-        source: The file or folder.
         rate_hz: Rows per second that the file or its times tell; None where neither does.
         jitter: Largest deviation of an interval from the usual one, as a share of it, holes left
             aside; None without times.
-        episodes: One row of numbers an episode.
-        channels: One row of numbers a channel.
     """
 
     source: Path
@@ -134,11 +121,9 @@ def _episode(
     shown = replace(shown, observed=_seen(shown))
     still = np.all(~(_steps(shown) > STILL_STEP * widths[usual]), axis=1)
     start, end = still_ends(shown, STILL_END * widths[usual]) if usual else (0, 0)
-    duration = None
+    duration = None if rate is None else max(rows - 1, 0) / rate
     if times is not None and rows:
         duration = float(times[-1] - times[0])
-    elif rate is not None:
-        duration = max(rows - 1, 0) / rate
     return EpisodeNumbers(
         episode.name,
         rows,

@@ -14,14 +14,17 @@ from motionese.task.task import Attempt, Outcome, Task
 
 PRESSED_MM = 5.0
 """A button that is deeper than this counts as pressed [mm]; its stroke is 15 mm."""
+UPPER, LOWER = (0.5201350465164571, 1.0544599580381713), (0.4611036090808577, 0.8288249158568406)
+"""How far ahead a corner is, and how high [m, world]."""
+RIGHT, LEFT = -0.29561591794016756, -0.06438408205983244
+"""How far to the left [m, world]."""
 
 
 def presses(sequence: PrimitiveSequence, attempt: Attempt) -> dict[str, Any]:
     """Return how many presses were due and made, and how deep they were [mm].
 
-    A stroke's rows count from its middle on, and the beginning of the following stroke, since the
-    arm lags behind what it is commanded; not the rows before, where an earlier press may not yet
-    be over.
+    A stroke's rows count from its middle on, where an earlier press is over, and the beginning of
+    the following stroke, since the arm lags behind what it is commanded.
     """
     ends = (*attempt.begins[1:], len(attempt.path))
     depths = []
@@ -41,29 +44,10 @@ PUSHING_BUTTONS = Task(
     name="pushing_buttons",
     title="pushing two buttons",
     places={
-        name: Place(name, position, title)
-        for name, position, title in (
-            (
-                "UR",
-                (0.5201350465164571, -0.29561591794016756, 1.0544599580381713),
-                "the upper right",
-            ),
-            (
-                "UL",
-                (0.5201350465164571, -0.06438408205983244, 1.0544599580381713),
-                "the upper left",
-            ),
-            (
-                "LR",
-                (0.4611036090808577, -0.29561591794016756, 0.8288249158568406),
-                "the right button",
-            ),
-            (
-                "LL",
-                (0.4611036090808577, -0.06438408205983244, 0.8288249158568406),
-                "the left button",
-            ),
-        )
+        "UR": Place("UR", (UPPER[0], RIGHT, UPPER[1]), "the upper right"),
+        "UL": Place("UL", (UPPER[0], LEFT, UPPER[1]), "the upper left"),
+        "LR": Place("LR", (LOWER[0], RIGHT, LOWER[1]), "the right button"),
+        "LL": Place("LL", (LOWER[0], LEFT, LOWER[1]), "the left button"),
     },
     primitives=(
         Primitive("PUSH(R)", "↓", "UR", "LR", "down", effect="right_button"),
@@ -82,7 +66,7 @@ PUSHING_BUTTONS = Task(
         "taught pairs": ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑"),
         "branching pairs": ("UR ↓↑", "LR ↑↓", "LR ↑←", "UR ←↓", "UL ↓↑"),
     },
-    novel={"triples": (*("UR ↓↑↓", "UR ↓↑←", "LR ↑↓↑", "LR ↑←↓", "UR ←↓↑", "UL ↓↑↓", "LL ↑↓↑"),)},
+    novel={"triples": ("UR ↓↑↓", "UR ↓↑←", "LR ↑↓↑", "LR ↑←↓", "UR ←↓↑", "UL ↓↑↓", "LL ↑↓↑")},
     fixtures=files(__package__).joinpath("pushing_buttons.xml").read_text(encoding="utf-8"),
     effects=("right_button", "left_button"),
 )

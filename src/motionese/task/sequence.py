@@ -9,13 +9,7 @@ from motionese.task.way import Way, straight
 
 @dataclass(frozen=True)
 class Place:
-    """A position of the hand that has a name.
-
-    Attributes:
-        name: Its name, such as 'UR'.
-        position: Where the hand is [m, world].
-        title: The place in words, such as 'the upper right'.
-    """
+    """A `position` of the hand [m, world] with a name ('UR') and a title ('the upper right')."""
 
     name: str
     position: tuple[float, float, float]
@@ -27,12 +21,9 @@ class Primitive:
     """A stroke of the hand from one place to another.
 
     Attributes:
-        name: Its name, such as 'PUSH(R)'.
+        name: Such as 'PUSH(R)'.
         sign: One character that tells it from the others that leave the same place.
-        start: Name of the place it leaves.
-        end: Name of the place it leads to.
         words: The stroke in words, such as 'down'.
-        way: How the hand gets there.
         duration: How many times as long as a stroke it takes.
         effect: What it has to bring about, as the body names it; empty where nothing.
     """
@@ -85,10 +76,6 @@ class PrimitiveSequence:
 
 def common_beginning(one: str, other: str) -> int:
     """Return how much two sequences' names have in common: the start place, then primitives."""
-    (start_one, _, signs_one), (start_other, _, signs_other) = (
-        name.partition(" ") for name in (one, other)
-    )
-    if start_one != start_other:
-        return 0
-    same = [a == b for a, b in zip(signs_one, signs_other, strict=False)]
-    return 1 + (same.index(False) if False in same else len(same))
+    (start, _, signs), (other_start, _, other_signs) = one.partition(" "), other.partition(" ")
+    same = [start == other_start, *(a == b for a, b in zip(signs, other_signs, strict=False))]
+    return same.index(False) if False in same else len(same)

@@ -46,8 +46,8 @@ def trace(sequence: PrimitiveSequence, attempt: Attempt) -> dict[str, Any]:
 
 
 def _on_board(right_cm: float, up_cm: float) -> tuple[float, float, float]:
-    position = np.array(MIDDLE) + (right_cm * np.array(RIGHT) + up_cm * np.array(UP)) / 100
-    x, y, z = (float(p) for p in position)
+    aside = (right_cm * np.array(RIGHT) + up_cm * np.array(UP)) / 100
+    x, y, z = (np.array(MIDDLE) + aside).tolist()
     return x, y, z
 
 
@@ -79,9 +79,7 @@ SHAPES = Task(
         Outcome("closure_cm", "gap between begin and end", "cm"),
     ),
     lessons={"shapes": ("T ↘←↗", "UL →↓←↑", "T ◝◡◜")},
-    novel={
-        "new_shapes": ("T ◝←↗", "T ↘◡↗", "T ↘←◜", "T ◝◡↗", "UL →↓◡↑", "LR ←↗↘", "LR ◡◜◝"),
-    },
+    novel={"new_shapes": ("T ◝←↗", "T ↘◡↗", "T ↘←◜", "T ◝◡↗", "UL →↓◡↑", "LR ←↗↘", "LR ◡◜◝")},
     fixtures="""
         <mujoco model="shapes">
           <worldbody>

@@ -24,10 +24,9 @@ class Attempt:
 
     Attributes:
         begins: The rows at which the primitives begin in what was shown.
-        shown: Positions of the shown hand [m, world]. [T, 3]
-        path: Positions of the own hand [m, world]. [T, 3]
+        shown: Positions of the shown hand [m, world].
+        path: Positions of the own hand [m, world].
         effects: What the task's things told, by the effect's name, such as a button's depth [mm].
-            [T] each
     """
 
     begins: tuple[int, ...]
@@ -41,8 +40,7 @@ class Outcome:
     """A column of success, for tables and figures.
 
     Attributes:
-        column: The column's name.
-        title: What it says, such as 'due presses that were made'.
+        title: What the column says, such as 'due presses that were made'.
         unit: Its unit; empty for a count.
         of: The column it is a share of; empty where it stands alone.
     """
@@ -64,10 +62,7 @@ class Task:
     Attributes:
         name: The task's name in settings.
         title: The task in words.
-        places: All places by name.
-        primitives: The automaton's transitions.
-        achieved: Its measure of success.
-        outcomes: The columns that it measures, the main one first.
+        outcomes: The columns that `achieved` measures, the main one first.
         untaught: Pairs of primitives' names that are possible and never taught.
         lessons: What may be taught, by name, as sequences' names; 'primitives' is always there.
         novel: Sequences that are imitated after the last loop, by the name of their table.
@@ -125,10 +120,7 @@ class Task:
         return not any((a.name, b.name) in self.untaught for a, b in sequence.pairs())
 
     def lesson(self, named: str | Iterable[str]) -> tuple[PrimitiveSequence, ...]:
-        """Return the sequences of a lesson.
-
-        Args:
-            named: The name of a lesson or of a set of new sequences, a sequence, or several.
+        """Return the sequences of a lesson, of a set of new sequences, or one or several named.
 
         Raises:
             TaskError: A lesson or sequence that the task does not have.

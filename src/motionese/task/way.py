@@ -16,7 +16,6 @@ class Way(Protocol):
         self, share: Float[ndarray, " S"], start: Float[ndarray, "3"], end: Float[ndarray, "3"]
     ) -> Float[ndarray, "S 3"]:
         """Return positions [m, world] at shares of the way, 0 at `start` and 1 at `end`."""
-        ...
 
 
 def straight(
@@ -28,12 +27,9 @@ def straight(
 
 @dataclass(frozen=True)
 class Arc:
-    """A circular arc about an axis.
+    """A circular arc through an angle [rad], right-handed about an axis.
 
-    Attributes:
-        angle: The angle [rad] that the way turns through, right-handed about `axis`.
-        axis: Direction [world] that the arc's plane is perpendicular to; perpendicular to the
-            straight way too.
+    The axis [world] is perpendicular to the arc's plane, hence to the straight way.
     """
 
     angle: float
@@ -49,18 +45,13 @@ class Arc:
         centre = start + half + np.cross(normal, half) / np.tan(self.angle / 2)
         radius = start - centre
         turned = self.angle * share[:, None]
-        return np.asarray(
-            centre + np.cos(turned) * radius + np.sin(turned) * np.cross(normal, radius)
-        )
+        aside = np.cross(normal, radius)
+        return np.asarray(centre + np.cos(turned) * radius + np.sin(turned) * aside)
 
 
 @dataclass(frozen=True)
 class ViaPoints:
-    """Straight pieces through points, given relative to the straight way.
-
-    Attributes:
-        points: Offsets [m, world] from the straight way at evenly spaced shares between its ends.
-    """
+    """Straight pieces through offsets [m, world] from the straight way, at evenly spaced shares."""
 
     points: tuple[tuple[float, float, float], ...]
 

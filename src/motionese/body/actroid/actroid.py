@@ -7,7 +7,8 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.body.actroid import gaze, reach
+from motionese.body.actroid import gaze
+from motionese.body.actroid import reach as arm
 from motionese.body.actroid.drive import ActroidDrive, ActroidSettings, with_pneumatics
 from motionese.body.composition import composed
 from motionese.body.tabletop_robot import TabletopRobot
@@ -33,10 +34,10 @@ class Actroid(TabletopRobot[ActroidSettings]):
         ]
     )
     joints = ("shoulder", "armpit")
-    command_range = reach.COMMAND_RANGE
+    command_range = arm.COMMAND_RANGE
     folded = np.radians([100.0, 0.0])  # hanging beside the body
     eye_position = gaze.EYE_POSITION
-    reach = reach.IN_WORDS
+    reach = arm.IN_WORDS
 
     @staticmethod
     def load_model(settings: ActroidSettings, task: Task) -> mujoco.MjModel:
@@ -49,30 +50,13 @@ class Actroid(TabletopRobot[ActroidSettings]):
         """Return cylinders and neck."""
         return ActroidDrive(model, settings.stiffness)
 
-    def marker_at(self, angles: Float[ndarray, "*shape 2"]) -> Float[ndarray, "*shape 3"]:
-        """Return where the marker is [m, world] when the arm stands at these angles [rad]."""
-        return reach.marker_at(angles)
-
-    def angles_nearest(self, position: Float[ndarray, "3"]) -> Float[ndarray, "2"]:
-        """Return the arm angles [rad], of those that may be commanded, nearest to a position."""
-        return reach.arm_nearest(position)
-
-    def aimed_at(self, position: Float[ndarray, "3"]) -> Float[ndarray, "2"]:
-        """Return the pan and tilt [rad] that bring a position [m, world] into the view's middle."""
-        return gaze.aimed_at(position)
-
-    def followed(self, neck: Float[ndarray, "2"], seen: Float[ndarray, "2"]) -> Float[ndarray, "2"]:
-        """Return pan and tilt [rad], corrected for a hand seen at (u, v) [px]."""
-        return gaze.followed(neck, seen)
-
-    def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
-        """Return the points [m, world] that the marker reaches nearest to those of a path."""
-        return reach.reachable(path)
-
-    def bearing(self, values: Float[ndarray, "*shape 6"]) -> Float[ndarray, "*shape 2"]:
-        """Return azimuth and elevation [rad] of the seen hand from the eye."""
-        return gaze.bearing(values)
+    marker_at = staticmethod(arm.marker_at)
+    angles_nearest = staticmethod(arm.arm_nearest)
+    reachable = staticmethod(arm.reachable)
+    aimed_at = staticmethod(gaze.aimed_at)
+    followed = staticmethod(gaze.followed)
+    bearing = staticmethod(gaze.bearing)
 
     def met(self, rays: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return where rays from the eye meet the surface on which the marker moves [m, world]."""
-        return reach.on_reach(gaze.EYE_POSITION, rays)
+        return arm.on_reach(gaze.EYE_POSITION, rays)

@@ -6,6 +6,7 @@ from typing import Literal
 import mujoco
 import numpy as np
 from jaxtyping import Float
+from mujoco import MjData, MjModel
 from numpy import ndarray
 from pydantic import Field
 
@@ -18,6 +19,8 @@ ARM_ACTUATORS = ("shoulder_down", "shoulder_up", "armpit_left", "armpit_right")
 _TUNED_STIFFNESS = 30.0
 _TUNED_DAMPING = 3.0
 _TUNED_VALVE_S = 0.06
+_AREA = 2.0
+"""A cylinder's torque at full supply pressure [Nm] for each Nm/rad, enough for rest at ±2 rad."""
 
 _FREE_SHOULDER = np.radians(35.0)
 
@@ -30,7 +33,7 @@ class ActroidSettings(SimulationSettings):
     """Stiffness [Nm/rad] of each joint's pair of pneumatic actuators; a softer arm is slower."""
 
 
-def with_pneumatics(model: mujoco.MjModel, stiffness: float) -> mujoco.MjModel:
+def with_pneumatics(model: MjModel, stiffness: float) -> MjModel:
     """Give a model's pneumatic actuators a stiffness [Nm/rad]; returns the model.
 
     Each joint has two cylinders of force area·p − (k/2)·length − (d/2)·speed, one pulling each way:
@@ -41,7 +44,7 @@ def with_pneumatics(model: mujoco.MjModel, stiffness: float) -> mujoco.MjModel:
         cylinder = model.actuator(name).id
         model.actuator_biasprm[cylinder, 1] = -stiffness / 2
         model.actuator_biasprm[cylinder, 2] = -_TUNED_DAMPING / softness / 2
-        model.actuator_gainprm[cylinder, 0] = _area(stiffness)
+        model.actuator_gainprm[cylinder, 0] = _AREA * stiffness
         model.actuator_dynprm[cylinder, 0] = _TUNED_VALVE_S * softness
     return model
 
@@ -52,7 +55,7 @@ class ActroidDrive:
     The sensed angle is not fed back: whatever pushes against the arm deflects it.
     """
 
-    def __init__(self, model: mujoco.MjModel, stiffness: float) -> None:
+    def __init__(self, model: MjModel, stiffness: float) -> None:
         self._model, self._stiffness = model, stiffness
         joints = [model.joint(name) for name in ("shoulder", "armpit")]
         self._qpos = np.array([j.qposadr[0] for j in joints])
@@ -64,21 +67,17 @@ class ActroidDrive:
         self._neck_ctrl = [model.actuator(n).id for n in ("pan", "tilt")]
         self._neck_act = [model.actuator(n).actadr[0] for n in ("pan", "tilt")]
 
-    def press(
-        self, data: mujoco.MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]
-    ) -> None:
+    def press(self, data: MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]) -> None:
         """Set pressures [share of supply] at which spring and weight balance at commanded angles.
 
         The neck's set points are the angles of the gaze.
         """
         torque = self._stiffness * angles + data.qfrc_bias[self._dof]
-        half = torque / _area(self._stiffness) / 2
+        half = torque / (_AREA * self._stiffness) / 2
         data.ctrl[self._ctrl] = 0.5 + np.array([half[0], -half[0], half[1], -half[1]])
         data.ctrl[self._neck_ctrl] = gaze
 
-    def place(
-        self, data: mujoco.MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]
-    ) -> None:
+    def place(self, data: MjData, angles: Float[ndarray, "2"], gaze: Float[ndarray, "2"]) -> None:
         """Put arm and neck at rest [rad], cylinders and dead time filled accordingly.
 
         An arm that would stand in the table starts above it; one that hangs does not.
@@ -96,8 +95,3 @@ class ActroidDrive:
             samples = int(self._model.actuator_history[cylinder, 0])
             past = np.full(samples, data.ctrl[cylinder])
             mujoco.mj_initCtrlHistory(self._model, data, cylinder, None, past)
-
-
-def _area(stiffness: float) -> float:
-    """Return a cylinder's torque at full supply pressure [Nm], enough for rest angles of ±2 rad."""
-    return 2.0 * stiffness

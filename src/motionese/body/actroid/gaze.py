@@ -14,13 +14,13 @@ SERVO_GAIN = 0.5
 """Share of the seen error that one correction of the gaze removes."""
 
 
-def followed(neck: Float[ndarray, "2"], seen: Float[ndarray, "2"]) -> Float[ndarray, "2"]:
+def followed(gaze: Float[ndarray, "2"], seen: Float[ndarray, "2"]) -> Float[ndarray, "2"]:
     """Return the commanded pan and tilt [rad], corrected for a hand seen at (u, v) [px].
 
     A pan moves the picture by the cosine of the tilt less than a tilt does.
     """
     right, down = np.arctan2(seen, FOCAL_PX)
-    return neck + SERVO_GAIN * np.array([-right / np.cos(neck[1]), down])
+    return gaze + SERVO_GAIN * np.array([-right / np.cos(gaze[1]), down])
 
 
 def aimed_at(position: Float[ndarray, "3"]) -> Float[ndarray, "2"]:
@@ -33,12 +33,6 @@ def bearing(values: Float[ndarray, "*shape 6"]) -> Float[ndarray, "*shape 2"]:
     """Return the direction in which the seen hand lies, from the channels' values.
 
     The ray of pixel (u, v) is turned by tilt, then by pan: both rotations exactly, not their sum.
-
-    Args:
-        values: shoulder, armpit, pan, tilt [rad], u, v [px]; the arm's angles are not used.
-
-    Returns:
-        Azimuth [rad], positive to the robot's left, and elevation [rad], positive upwards.
     """
     _, _, pan, tilt, u, v = np.moveaxis(np.asarray(values, dtype=np.float64), -1, 0)
     left, up = -u / FOCAL_PX, -v / FOCAL_PX

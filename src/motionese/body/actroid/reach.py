@@ -24,34 +24,32 @@ IN_WORDS = (
     f"({SHOULDER[0]:.3f}, {SHOULDER[1]:.3f}, {SHOULDER[2]:.3f}) m, above the table, "
     "shoulder {:g} to {:g}°, armpit {:g} to {:g}°".format(*np.degrees(COMMAND_RANGE).T.flat)
 )
-"""What the arm reaches."""
 
 
-def marker_at(arm: Float[ndarray, "*shape 2"]) -> Float[ndarray, "*shape 3"]:
+def marker_at(angles: Float[ndarray, "*shape 2"]) -> Float[ndarray, "*shape 3"]:
     """Return where the marker is [m, world] when the arm stands at these angles [rad]."""
-    shoulder, armpit = np.moveaxis(np.asarray(arm, dtype=np.float64), -1, 0)
+    shoulder, armpit = np.moveaxis(np.asarray(angles, dtype=np.float64), -1, 0)
     a, _, c = MARKER_ON_ARM
     ahead = a * np.cos(armpit)
     x = ahead * np.cos(shoulder) + c * np.sin(shoulder)
     z = -ahead * np.sin(shoulder) + c * np.cos(shoulder)
-    marker: Float[ndarray, "*shape 3"] = SHOULDER + np.stack([x, a * np.sin(armpit), z], axis=-1)
-    return marker
+    return np.asarray(SHOULDER + np.stack([x, a * np.sin(armpit), z], axis=-1))
 
 
 def projected(path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
     """Return the points [m, world] of the whole surface nearest to those of a path."""
     beyond = np.asarray(path, dtype=np.float64) - SHOULDER
     distance = np.linalg.norm(beyond, axis=-1, keepdims=True)
-    reached: Float[ndarray, "*shape 3"] = SHOULDER + REACH_M * beyond / distance
-    return reached
+    return np.asarray(SHOULDER + REACH_M * beyond / distance)
 
 
 def reachable(path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
     """Return the points [m, world] nearest to those of a path that angles in the range reach."""
     surface = projected(path)
     angles = _angles_of(surface)
-    beyond = (angles != np.clip(angles, *COMMAND_RANGE)).any(axis=-1, keepdims=True)
-    return np.asarray(np.where(beyond, marker_at(np.clip(angles, *COMMAND_RANGE)), surface))
+    within = np.clip(angles, *COMMAND_RANGE)
+    beyond = (angles != within).any(axis=-1, keepdims=True)
+    return np.asarray(np.where(beyond, marker_at(within), surface))
 
 
 def on_reach(
@@ -62,8 +60,7 @@ def on_reach(
     inside = np.asarray(origin) - SHOULDER
     half = along @ inside
     distance = -half + np.sqrt(half**2 + REACH_M**2 - inside @ inside)
-    met: Float[ndarray, "*shape 3"] = origin + distance[..., None] * along
-    return met
+    return np.asarray(origin + distance[..., None] * along)
 
 
 def arm_nearest(position: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 2"]:

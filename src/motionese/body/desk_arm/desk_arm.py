@@ -10,9 +10,9 @@ where s is the shoulder, L the upper arm's length, and (a, 0, c) the marker in t
 from importlib.resources import files
 from typing import Literal
 
-import mujoco
 import numpy as np
 from jaxtyping import Float
+from mujoco import MjData, MjModel
 from numpy import ndarray
 
 from motionese.body.composition import composed
@@ -82,13 +82,13 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
         self._normal = np.linalg.svd(places - self._middle)[2][2]
 
     @staticmethod
-    def load_model(settings: DeskArmSettings, task: Task) -> mujoco.MjModel:
+    def load_model(settings: DeskArmSettings, task: Task) -> MjModel:
         """Compile the robot at a task."""
         xml = files(__package__).joinpath("desk_arm.xml").read_text(encoding="utf-8")
         return composed(xml, task)
 
     @staticmethod
-    def open_drive(model: mujoco.MjModel, settings: DeskArmSettings) -> "Servos":
+    def open_drive(model: MjModel, settings: DeskArmSettings) -> "Servos":
         """Return the three servos."""
         return Servos(model)
 
@@ -110,14 +110,6 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
         lift = np.arctan2(up, out) - inner
         angles = np.stack([np.arctan2(y, x), lift, bend + np.angle(MARKER)], axis=-1)
         return np.asarray(np.clip(angles, *COMMAND_RANGE))
-
-    def aimed_at(self, position: Float[ndarray, "3"]) -> Float[ndarray, "0"]:
-        """Return nothing: the camera stands still."""
-        return np.zeros(0)
-
-    def followed(self, gaze: Float[ndarray, "0"], seen: Float[ndarray, "2"]) -> Float[ndarray, "0"]:
-        """Return nothing: the camera stands still."""
-        return gaze
 
     def reachable(self, path: Float[ndarray, "*shape 3"]) -> Float[ndarray, "*shape 3"]:
         """Return the points of a path [m, world], or the nearest that the arm reaches."""
@@ -143,20 +135,16 @@ class DeskArm(TabletopRobot[DeskArmSettings]):
 class Servos:
     """The servos' set points; their stiffness, limits and lag are the model's."""
 
-    def __init__(self, model: mujoco.MjModel) -> None:
+    def __init__(self, model: MjModel) -> None:
         self._qpos = [model.joint(name).qposadr[0] for name in JOINTS]
         self._ctrl = [model.actuator(name).id for name in JOINTS]
         self._act = [model.actuator(name).actadr[0] for name in JOINTS]
 
-    def press(
-        self, data: mujoco.MjData, angles: Float[ndarray, "3"], gaze: Float[ndarray, "0"]
-    ) -> None:
+    def press(self, data: MjData, angles: Float[ndarray, "3"], gaze: Float[ndarray, "0"]) -> None:
         """Set the servos for commanded joints [rad]."""
         data.ctrl[self._ctrl] = angles
 
-    def place(
-        self, data: mujoco.MjData, angles: Float[ndarray, "3"], gaze: Float[ndarray, "0"]
-    ) -> None:
+    def place(self, data: MjData, angles: Float[ndarray, "3"], gaze: Float[ndarray, "0"]) -> None:
         """Put the joints at rest [rad]; an arm that would stand in the table starts lifted."""
         pan, lift, elbow = angles
         fingertip = UPPER_ARM_M + FINGERTIP * np.exp(-1j * elbow)

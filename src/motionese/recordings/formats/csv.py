@@ -17,18 +17,9 @@ from jaxtyping import Bool, Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError, unknown
+from motionese.recordings.formats import csv_columns
 from motionese.recordings.formats.conventions import natural
-from motionese.recordings.formats.csv_columns import (
-    EPISODE,
-    TIME,
-    header,
-    is_measured,
-    label,
-    named_column,
-    numbers,
-    split_unit,
-    times,
-)
+from motionese.recordings.formats.csv_columns import EPISODE, TIME
 from motionese.recordings.formats.csv_table import Table, read_table
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
@@ -38,15 +29,9 @@ SUFFIXES = (".csv", ".tsv")
 
 
 def read(path: Path, episode: str | None = None, time: str | None = None) -> Recording:
-    """Read a table, or a folder of tables with the same columns.
+    """Read a table, or a folder of tables with the same columns, one file an episode.
 
-    Args:
-        path: The file, or a folder with one file an episode.
-        episode: The column that names the episode; found by its name where left out.
-        time: The column that holds the time; found by its name where left out.
-
-    Raises:
-        RecordingError: Not a table of numbers, or columns that are not there.
+    The columns that name the `episode` and hold the `time` are found by their names if not given.
     """
     if not path.is_dir():
         return _file(path, episode, time, alone=True)
@@ -63,18 +48,16 @@ def read(path: Path, episode: str | None = None, time: str | None = None) -> Rec
 def write(path: Path, recording: Recording) -> None:
     """Write one table: episode, time [s], and the channels; empty where nothing was observed.
 
-    Raises:
-        RecordingError: A channel is called as the columns of episode or time are, or `path`
-            cannot be written.
+    No channel may be called as the columns of episode or time are.
     """
-    taken = {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}
-    if taken:
+    if taken := {EPISODE[0], TIME[0]} & {c.casefold() for c in recording.channels}:
         raise RecordingError(f"{path}: a csv file has its own column '{taken.pop()}'; rename it")
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     times = [e.times_at(recording.rate_hz) for e in recording.episodes]
     timed = all(t is not None for t in times)
-    labels = [label(c, u) for c, u in zip(recording.channels, recording.units, strict=True)]
+    named = zip(recording.channels, recording.units, strict=True)
+    labels = [csv_columns.label(name, unit) for name, unit in named]
     table.writerow([EPISODE[0], *([f"{TIME[0]} [s]"] if timed else []), *labels])
     for episode, stamps in zip(recording.episodes, times, strict=True):
         columns: list[Iterable[str]] = [[episode.name] * len(episode.values)]
@@ -89,9 +72,9 @@ def write(path: Path, recording: Recording) -> None:
 
 def _file(path: Path, episode: str | None, time: str | None, *, alone: bool) -> Recording:
     table = read_table(path)
-    names = header(path, table.header)
-    by_name = named_column(path, names, episode, EPISODE)
-    by_time = named_column(path, names, time, TIME)
+    names = csv_columns.header(path, table.header)
+    by_name = csv_columns.named_column(path, names, episode, EPISODE)
+    by_time = csv_columns.named_column(path, names, time, TIME)
     if by_name is not None and by_name == by_time:
         raise RecordingError(
             f"{path}: column '{names[by_name]}' cannot be episode and time at once"
@@ -104,14 +87,14 @@ def _file(path: Path, episode: str | None, time: str | None, *, alone: bool) -> 
     }
     if not columns:
         raise RecordingError(f"{path}: no column holds numbers to learn from")
-    channels, units = zip(*(split_unit(names[i]) for i in columns), strict=True)
+    channels, units = zip(*(csv_columns.split_unit(names[i]) for i in columns), strict=True)
     values, observed = (np.stack(kind, axis=1) for kind in zip(*columns.values(), strict=True))
-    stamps = None if by_time is None else times(table, by_time)
+    stamps = None if by_time is None else csv_columns.times(table, by_time)
     episodes = tuple(
         Episode(name, _rising(table, stamps, rows, name), values[rows], observed[rows])
         for name, rows in _episodes(table, by_name, alone)
     )
-    usual = tuple(c for c in channels if is_measured(c))
+    usual = tuple(c for c in channels if csv_columns.is_measured(c))
     return Recording(path, channels, units, {}, None, episodes, usual or channels)
 
 
@@ -119,7 +102,7 @@ def _measured(
     table: Table, column: int, may_name: bool
 ) -> tuple[Float[ndarray, " T"], Bool[ndarray, " T"]] | None:
     """Return a column of numbers; None for text, unless it may be what names the episodes."""
-    found = numbers(table, column)
+    found = csv_columns.numbers(table, column)
     if found is not None or not may_name:
         return found
     name, words = table.header[column], {cell for cell in table.columns[column] if cell}
@@ -158,13 +141,11 @@ def _rising(
     if times is None:
         return None
     here = times[rows]
-    wrong = np.flatnonzero(~np.isfinite(here))
-    if len(wrong):
+    if len(wrong := np.flatnonzero(~np.isfinite(here))):
         raise RecordingError(
             f"{table.where(rows.start + int(wrong[0]))}: episode '{name}' has a row without a time"
         )
-    back = np.flatnonzero(np.diff(here) <= 0)
-    if len(back):
+    if len(back := np.flatnonzero(np.diff(here) <= 0)):
         raise RecordingError(
             f"{table.where(rows.start + int(back[0]) + 1)}: time must rise inside episode "
             f"'{name}', got {here[back[0] + 1]:.12g} s after {here[back[0]]:.12g} s"

@@ -54,9 +54,8 @@ def named_column(
     """Return the column that was named, or else the first of the usual names that is there."""
     bare = [split_unit(name)[0] for name in names]
     if given is not None:
-        for candidates in (names, bare):
-            if given in candidates:
-                return list(candidates).index(given)
+        if given in (either := [*names, *bare]):
+            return either.index(given) % len(names)
         raise RecordingError(f"{path}: {unknown('column', given, filter(None, names))}")
     # ROS calls the time %time, PlotJuggler __time.
     folded = [name.casefold().lstrip("%_# ") for name in bare]
@@ -85,11 +84,7 @@ def label(name: str, unit: str) -> str:
 
 
 def numbers(table: Table, column: int) -> tuple[Float[ndarray, " T"], Bool[ndarray, " T"]] | None:
-    """Return a column as numbers and what was observed of it; None if all of it is text.
-
-    Raises:
-        RecordingError: Text among numbers.
-    """
+    """Return a column as numbers and what was observed of it; None if all of it is text."""
     cells = table.columns[column]
     try:
         return floats(cells), np.array([bool(cell) for cell in cells], dtype=bool)
@@ -111,11 +106,7 @@ def numbers(table: Table, column: int) -> tuple[Float[ndarray, " T"], Bool[ndarr
 
 
 def times(table: Table, column: int) -> Float[ndarray, " T"]:
-    """Return a column of times [s], NaN where a cell is empty.
-
-    Raises:
-        RecordingError: Text that tells no time.
-    """
+    """Return a column of times [s], NaN where a cell is empty."""
     name, found = table.header[column], numbers(table, column)
     if found is not None:
         bare, unit = split_unit(name)

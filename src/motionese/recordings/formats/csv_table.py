@@ -4,6 +4,7 @@ import csv
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,6 @@ class Table:
     """The cells of a text file, without blanks around them.
 
     Attributes:
-        path: The file, for messages.
         separator: What stands between two cells; a blank for any number of blanks.
         header: The cells of the first line.
         columns: The cells below, by column.
@@ -47,12 +47,14 @@ def read_table(path: Path) -> Table:
     """Read a text file; `RecordingError` where it is none, or a line is wider than its header."""
     text = _text(path)
     lines = io.StringIO(text, newline="").readlines()
-    above = _lines_above(lines)
+    bare = map(str.lstrip, lines)
+    above = len(list(takewhile(lambda line: not line or line.startswith(COMMENTS), bare)))
     separator = _separator(lines[above:])
     rows, ends = _rows(path, [*["\n"] * above, *lines[above:]], separator)
     if above and rows:
         # NumPy's savetxt and ROS write the names of the columns as a comment.
-        named = _cells(lines[above - 1].lstrip("#% "), separator)
+        parts = lines[above - 1].lstrip("#% ").split(None if separator == " " else separator)
+        named = [part.strip(' "\r\n') for part in parts]
         values = [cell for cell in rows[0] if is_number(cell.replace(",", "."))]
         if values and len(named) == len(rows[0]):
             rows, ends = [named, *rows], [above, *ends]
@@ -107,14 +109,6 @@ def _text(path: Path) -> str:
         ) from error
 
 
-def _lines_above(lines: Sequence[str]) -> int:
-    """Return how many empty lines and comments stand above the table."""
-    for i, line in enumerate(lines):
-        if line.strip() and not line.lstrip().startswith(COMMENTS):
-            return i
-    return len(lines)
-
-
 def _separator(lines: Sequence[str]) -> str:
     first = lines[0] if lines else ""
     if any(mark in first for mark in SEPARATORS):
@@ -137,11 +131,6 @@ def _rows(path: Path, lines: Sequence[str], separator: str) -> tuple[list[list[s
     except csv.Error as error:
         raise RecordingError(f"{path}, line {reader.line_num}: not a csv file: {error}") from error
     return rows, ends
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    cells = line.split(None if separator == " " else separator)
-    return [cell.strip(' "\r\n') for cell in cells]
 
 
 def _fitted(path: Path, cells: list[str], line: int, width: int) -> list[str]:

@@ -21,11 +21,7 @@ JOINTS, BOUNDS = "joints.npy", "joint_bounds.npy"
 
 
 def read(path: Path) -> Recording:
-    """Read the joints, and what else of the same rows lies beside them; images are left alone.
-
-    Raises:
-        RecordingError: No joints, or arrays that do not fit each other.
-    """
+    """Read the joints, and what else of the same rows lies beside them; images are left alone."""
     parts = [p for p in (path, path / "train", path / "test") if (p / JOINTS).is_file()]
     if not parts:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
@@ -47,10 +43,8 @@ def read(path: Path) -> Recording:
 def write(path: Path, recording: Recording) -> None:
     """Write `joints.npy` (float32, padded with each last row) and `joint_bounds.npy`.
 
-    The names and units of the channels and the rate are lost: EIPL has no place for them.
-
-    Raises:
-        RecordingError: Gaps or uneven times, which EIPL cannot hold, or `path` exists already.
+    The names and units of the channels and the rate are lost: EIPL has no place for them. Gaps and
+    uneven times are refused.
     """
     check_even_and_whole(path, recording, "an EIPL folder")
     values = [e.values for e in recording.episodes]

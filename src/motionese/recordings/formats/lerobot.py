@@ -1,10 +1,9 @@
 """LeRobotDataset v3.0 and v2.1, read with pyarrow alone: no lerobot, no video decoded."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -26,8 +25,7 @@ from motionese.recordings.recording import Episode, Recording
 __all__ = ["read", "write"]
 
 
-@dataclass(frozen=True)
-class _Rows:
+class _Rows(NamedTuple):
     """All rows of the dataset, sorted by episode and frame."""
 
     values: Float[ndarray, "N D"]
@@ -41,21 +39,21 @@ def read(path: Path) -> Recording:
 
     Channels are named as in `lerobot_features.features_of`. Those of `observation.state` are
     usual; of `action` where there is no state; else all.
-
-    Raises:
-        RecordingError: Not such a folder, another version, files missing, cut short, or that do
-            not add up.
-        MissingPackageError: pyarrow is not installed.
     """
     info = read_info(path)
-    features = features_of(info)
-    if not features:
+    if not (features := features_of(info)):
         raise RecordingError(
             f"{path}: no feature of dtype float32 or float64 and shape [n]; "
             f"there are: {', '.join(info.features) or 'none'}"
         )
     rows = _read_rows(path, features)
-    _check_totals(path, info, rows)
+    found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
+    for key, count in found.items():
+        if (told := getattr(info, key)) not in {None, count}:
+            raise RecordingError(
+                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
+                f"is the download complete?"
+            )
     by_key = {f.key: f.channels for f in features}
     channels = tuple(name for f in features for name in f.channels)
     return Recording(
@@ -70,8 +68,7 @@ def read(path: Path) -> Recording:
 
 
 def _read_rows(path: Path, features: tuple[Feature, ...]) -> _Rows:
-    files = sorted((path / "data").glob("*/*.parquet"))
-    if not files:
+    if not (files := sorted((path / "data").glob("*/*.parquet"))):
         raise RecordingError(f"{path}: no data/chunk-…/*.parquet; is the download complete?")
     widths = {f.key: len(f.channels) for f in features}
     widths.update(episode_index=1, frame_index=1, timestamp=1)
@@ -122,38 +119,24 @@ def _matrix(file: Path, table: Any, key: str, width: int) -> Float[ndarray, "N n
         raise RecordingError(
             f"{file}: column '{key}' has {lengths} numbers in a row; info.json says {width}"
         )
-    numbers = np.asarray(cells.to_numpy(zero_copy_only=False), np.float64)
-    return numbers.reshape(-1, width)
+    return np.asarray(cells.to_numpy(zero_copy_only=False), np.float64).reshape(-1, width)
 
 
 def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarray, " N"]:
-    wrong = np.flatnonzero(~(np.abs(column[:, 0]) < 2**53))
-    if len(wrong):
+    if len(wrong := np.flatnonzero(~(np.abs(column[:, 0]) < 2**53))):
         raise RecordingError(f"{path}: column '{key}' holds {column[wrong[0], 0]:g}, no row number")
     return np.asarray(column[:, 0], dtype=np.int64)
-
-
-def _check_totals(path: Path, info: Info, rows: _Rows) -> None:
-    found = {"total_frames": len(rows.episode), "total_episodes": len(np.unique(rows.episode))}
-    for key, count in found.items():
-        if (told := getattr(info, key)) not in {None, count}:
-            raise RecordingError(
-                f"{path}: meta/info.json tells {told} {key}, the files in data hold {count}; "
-                f"is the download complete?"
-            )
 
 
 def _episodes(path: Path, info: Info, rows: _Rows) -> Iterator[Episode]:
     indices, starts = np.unique(rows.episode, return_index=True)
     names = dict(enumerate(info.episode_names))
     for index, start, end in zip(indices, starts, [*starts[1:], len(rows.episode)], strict=True):
-        where = f"{path}: episode {index}"
-        wrong = np.flatnonzero(rows.frame[start:end] != np.arange(end - start))
-        if len(wrong):
+        if len(wrong := np.flatnonzero(rows.frame[start:end] != np.arange(end - start))):
             raise RecordingError(
-                f"{where}: frame {wrong[0]} is missing; "
+                f"{path}: episode {index}: frame {wrong[0]} is missing; "
                 f"found frame_index {rows.frame[start + wrong[0]]} in its place"
             )
-        values = rows.values[start:end]
+        name = names.get(index, f"episode_{index:06d}")
         times = times_unless_even(rows.times[start:end], info.fps)
-        yield Episode.whole(names.get(index, f"episode_{index:06d}"), values, times)
+        yield Episode.whole(name, rows.values[start:end], times)

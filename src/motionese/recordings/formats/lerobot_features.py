@@ -1,10 +1,8 @@
 """What a LeRobotDataset's meta/info.json says, and how its features become named channels."""
 
 from collections import Counter
-from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -51,8 +49,7 @@ class Info(_Loose):
     episode_names: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Feature:
+class Feature(NamedTuple):
     """A feature whose columns are channels: their names, unique in the dataset, and units."""
 
     key: str
@@ -61,11 +58,7 @@ class Feature:
 
 
 def read_info(path: Path) -> Info:
-    """Read meta/info.json of the dataset in the folder `path`.
-
-    Raises:
-        RecordingError: It is missing, no such file, or of a version that is not read.
-    """
+    """Read meta/info.json of the dataset in the folder `path`."""
     file = path / "meta" / "info.json"
     try:
         content = file.read_bytes()
@@ -95,9 +88,8 @@ def features_of(info: Info) -> tuple[Feature, ...]:
     taken: set[str] = set()
     for key, told in info.features.items():
         is_vector = len(told.shape) <= 1 and all(0 < n <= WIDEST for n in told.shape)
-        if key in BOOKKEEPING or told.dtype not in {"float32", "float64"} or not is_vector:
-            continue
-        if told.derived_from is not None:
+        is_float = told.dtype in {"float32", "float64"}
+        if key in BOOKKEEPING or told.derived_from is not None or not (is_float and is_vector):
             continue
         width = told.shape[0] if told.shape else 1
         channels = _channels(key, _names(told.names, width), width)
@@ -121,11 +113,7 @@ def _names(told: Any, width: int) -> tuple[str, ...] | None:
     if isinstance(told, dict) and all(isinstance(v, int) for v in told.values()):
         told = sorted(told, key=told.__getitem__)
     elif isinstance(told, dict):
-        told = _joined(told.values())
-    elif isinstance(told, list) and all(isinstance(part, list) for part in told):
-        told = _joined(told)
+        told = [part for part in told.values() if isinstance(part, list)]
+    if isinstance(told, list) and all(isinstance(part, list) for part in told):
+        told = [name for part in told for name in part]
     return strings(told, width)
-
-
-def _joined(parts: Iterable[Any]) -> list[Any]:
-    return [name for part in parts if isinstance(part, list) for name in part]

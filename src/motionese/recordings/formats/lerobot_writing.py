@@ -15,7 +15,6 @@ from motionese.recordings.formats.writing import check_even_and_whole, new_folde
 from motionese.recordings.recording import Recording
 
 _DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
-_EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 _TASK = "motion"
 """Every dataset names a task; a recording tells none."""
 _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
@@ -25,12 +24,8 @@ def write(path: Path, recording: Recording) -> None:
     """Write the recording as a new folder that holds a LeRobotDataset v3.0.
 
     `observation.state` holds all channels in single precision, which is what lerobot's policies
-    take; `action` is the next row's state (the last row its own), for a policy needs one.
-
-    Raises:
-        RecordingError: Gaps, uneven times, or a rate that is no whole number, which the format
-            cannot hold, or `path` exists.
-        MissingPackageError: pyarrow is not installed.
+    take; `action` is the next row's state (the last row its own), for a policy needs one. Gaps,
+    uneven times and a rate that is no whole number are refused.
     """
     check_even_and_whole(path, recording, "a LeRobotDataset")
     rate = recording.rate_hz
@@ -39,19 +34,17 @@ def write(path: Path, recording: Recording) -> None:
             f"{path}: a LeRobotDataset has a whole number of frames per second, the recording "
             f"{'no known rate' if rate is None else f'{rate:g}'}: resample it to a whole rate"
         )
-    episodes = [_columns(i, e.values, rate) for i, e in enumerate(recording.episodes)]
-    ends = np.cumsum([len(e["index"]) for e in episodes])
-    for columns, end in zip(episodes, ends, strict=True):
-        columns["index"] += end - len(columns["index"])
+    starts = np.cumsum([0, *(len(e.values) for e in recording.episodes)]).tolist()
+    episodes = [_columns(i, starts[i], e.values, rate) for i, e in enumerate(recording.episodes)]
     whole = {key: np.concatenate([e[key] for e in episodes]) for key in episodes[0]}
     with new_folder(path) as folder:
         _write_parquets(folder, whole, episodes)
         _write_json(folder / "meta" / "stats.json", {k: _statistics(v) for k, v in whole.items()})
-        _write_json(folder / "meta" / "info.json", _info(recording, int(rate), int(ends[-1])))
+        _write_json(folder / "meta" / "info.json", _info(recording, int(rate), starts[-1]))
 
 
-def _columns(index: int, values: ndarray, rate_hz: float) -> dict[str, ndarray]:
-    """Return one episode's columns [T] and [T, D]; `index` still counts from its own start."""
+def _columns(index: int, start: int, values: ndarray, rate_hz: float) -> dict[str, ndarray]:
+    """Return the columns [T] and [T, D] of one episode, which begins at row `start` of all."""
     state = values.astype(np.float32)
     frame = np.arange(len(state))
     return {
@@ -60,7 +53,7 @@ def _columns(index: int, values: ndarray, rate_hz: float) -> dict[str, ndarray]:
         "timestamp": (frame / rate_hz).astype(np.float32),
         "frame_index": frame,
         "episode_index": np.full(len(state), index),
-        "index": frame.copy(),
+        "index": start + frame,
         "task_index": np.zeros(len(state), np.int64),
     }
 
@@ -122,11 +115,12 @@ def _write_parquets(
         width = whole[key].shape[1]
         data[key] = cells if width == 1 else pa.FixedSizeListArray.from_arrays(cells, width)
     order = [STATE, ACTION, *BOOKKEEPING]
-    rows = [_about(columns) for columns in episodes]
     tasks = pd.DataFrame({"task_index": [0]}, index=pd.Index([_TASK], name="task"))
     tables = {
         _DATA.format(chunk_index=0, file_index=0): pa.table({key: data[key] for key in order}),
-        _EPISODES: pa.Table.from_pylist(rows),
+        "meta/episodes/chunk-000/file-000.parquet": pa.Table.from_pylist(
+            [_about(columns) for columns in episodes]
+        ),
         "meta/tasks.parquet": pa.Table.from_pandas(tasks),
     }
     for name, table in tables.items():

@@ -38,13 +38,11 @@ __all__ = ["read", "write"]
 class _Tape:
     """What one file holds: numbers by channel and log time [ns]."""
 
-    file: Path
-    metadata: TopicMetadata | None = None
+    metadata: TopicMetadata
     samples: dict[str, dict[int, float]] = field(default_factory=dict)
     stamps: dict[str, set[int]] = field(default_factory=dict)
     """Log times [ns] of the messages of every topic that holds numbers."""
     bookkeeping: set[str] = field(default_factory=set)
-    encodings: set[str] = field(default_factory=set)
 
 
 def read(path: Path) -> Recording:
@@ -53,18 +51,13 @@ def read(path: Path) -> Recording:
     Rows are the times at which any of the topics spoke, counted from the file's first message;
     a channel is observed where its own topic did. The rate is that of the topic with the most
     messages. All channels but headers, stamps and sequence numbers are usual.
-
-    Raises:
-        RecordingError: Not an MCAP file, cut short, damaged, or without numbers in JSON.
-        MissingPackageError: mcap is not installed.
     """
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda f: natural(f.name))
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
     tapes = [_read_tape(file) for file in files]
-    named = [n for t in tapes for n in (*(t.metadata.channels if t.metadata else ()), *t.samples)]
-    channels = tuple(dict.fromkeys(named))
-    told = [t.metadata for t in tapes if t.metadata]
+    channels = tuple(dict.fromkeys(n for t in tapes for n in (*t.metadata.channels, *t.samples)))
+    told = [t.metadata for t in tapes]
     units = {name: unit for m in told for name, unit in zip(m.channels, m.units, strict=False)}
     bookkeeping = set.union(*(t.bookkeeping for t in tapes))
     return Recording(
@@ -102,12 +95,11 @@ def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:
 
 
 def _read_tape(file: Path) -> _Tape:
-    tape = _Tape(file)
+    tape = _Tape(TopicMetadata(episode=file.stem, channels=(), units=(), rate_hz=None))
     topics: dict[int, Any] = {}
     for record in _records(file):
         if hasattr(record, "message_encoding"):
             topics[record.id] = record
-            tape.encodings.add(record.message_encoding)
             if METADATA_KEY in record.metadata:
                 tape.metadata = TopicMetadata.read(file, record.metadata[METADATA_KEY])
         elif hasattr(record, "channel_id"):
@@ -123,9 +115,10 @@ def _read_tape(file: Path) -> _Tape:
                 ) from error
             _add(tape, topic, record.log_time, found)
     if not tape.stamps:
+        encodings = sorted({topic.message_encoding for topic in topics.values()})
         raise RecordingError(
             f"{file}: no numbers in messages encoded as 'json'; "
-            f"encodings in it: {', '.join(sorted(tape.encodings)) or 'none'}"
+            f"encodings in it: {', '.join(encodings) or 'none'}"
         )
     return tape
 
@@ -157,21 +150,17 @@ def _add(tape: _Tape, topic: Any, stamp: int, found: list[tuple[str, float]]) ->
         tape.stamps.setdefault(topic.topic, set()).add(stamp)
     for path, number in found:
         name = path.removeprefix(".") if ours else topic.topic + path
-        if name not in tape.samples:
-            tape.samples[name] = {}
-            if not ours and is_bookkeeping(path):
-                tape.bookkeeping.add(name)
-        tape.samples[name][stamp] = number
+        if name not in tape.samples and not ours and is_bookkeeping(path):
+            tape.bookkeeping.add(name)
+        tape.samples.setdefault(name, {})[stamp] = number
 
 
 def _rate(tapes: list[_Tape]) -> float | None:
     """Return the rate [Hz] that all files tell, or that of the topic with the most messages."""
-    told = {t.metadata.rate_hz if t.metadata else None for t in tapes}
+    told = {t.metadata.rate_hz for t in tapes}
     if len(told) == 1 and None not in told:
         return told.pop()
-    count = Counter[str]()
-    for tape in tapes:
-        count.update({topic: len(stamps) for topic, stamps in tape.stamps.items()})
+    count = Counter(topic for t in tapes for topic, stamps in t.stamps.items() for _ in stamps)
     (densest, _), *_ = count.most_common(1)
     return rate_of_times([_since_first(sorted(t.stamps.get(densest, ()))) for t in tapes])
 
@@ -191,10 +180,5 @@ def _episode(tape: _Tape, channels: tuple[str, ...]) -> Episode:
         rows = [row_at[stamp] for stamp in samples]
         values[rows, column] = list(samples.values())
         observed[rows, column] = True
-    rate_told = tape.metadata.rate_hz if tape.metadata else None
-    return Episode(
-        name=tape.metadata.episode if tape.metadata else tape.file.stem,
-        times=times_unless_even(_since_first(stamps), rate_told),
-        values=values,
-        observed=observed,
-    )
+    times = times_unless_even(_since_first(stamps), tape.metadata.rate_hz)
+    return Episode(tape.metadata.episode, times, values, observed)

@@ -50,12 +50,8 @@ def write(path: Path, recording: Recording) -> None:
     """Write a new folder of files, or one file where `path` ends in .mcap.
 
     Every row is a message {"NAME": value, …} on the topic /motion at its time, counted from the
-    first; what was not observed is left out of it.
-
-    Raises:
-        RecordingError: Several episodes for one file, an empty one, no known times, values that
-            JSON cannot hold, or a folder that exists.
-        MissingPackageError: mcap is not installed.
+    first; what was not observed is left out of it. Several episodes for one file, an empty one,
+    unknown times and values that are not finite are refused.
     """
     if wrong := recording.first(lambda e: e.observed & ~np.isfinite(e.values)):
         raise RecordingError(f"{path}: {wrong[0]}: JSON cannot hold {wrong[1]}")

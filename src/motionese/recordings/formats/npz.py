@@ -39,8 +39,7 @@ class Metadata(BaseModel):
     def _consistent(self) -> "Metadata":
         if len(self.units) != len(self.channels):
             raise ValueError(f"{len(self.channels)} channels need as many units, got {self.units}")
-        strange = {*self.usual, *self.ranges} - {*self.channels}
-        if strange:
+        if strange := {*self.usual, *self.ranges} - {*self.channels}:
             raise ValueError(f"there is no channel '{min(strange)}'")
         if self.rate_hz is not None and not 0 < self.rate_hz < math.inf:
             raise ValueError(f"a rate must be finite and > 0, got {self.rate_hz}")
@@ -51,11 +50,7 @@ class Metadata(BaseModel):
 
 
 def read(path: Path) -> Recording:
-    """Read a file that `write` wrote.
-
-    Raises:
-        RecordingError: Another file, one cut short, or one of a newer format.
-    """
+    """Read a file that `write` wrote."""
     try:
         # NumPy leaves open what it opened itself and could not read.
         with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:

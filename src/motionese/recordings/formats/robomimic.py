@@ -6,17 +6,17 @@ names no columns: a dataset that we wrote says in its attributes `names` and `un
 """
 
 import json
+import subprocess
+import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from motionese.errors import RecordingError
 from motionese.recordings.formats.conventions import WIDEST, imported, natural, strings, why
-from motionese.recordings.formats.robomimic_damage import check_walkable
 from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.rate import FASTEST_HZ
 from motionese.recordings.recording import Episode, Recording
@@ -26,10 +26,21 @@ DERIVED = "derived_from"
 
 _NO_ENVIRONMENT = {"env_name": "recording", "type": 2}
 """robomimic asks for a kind of environment (2: gym) even where none is ever made."""
+SECONDS = 30.0
+"""The longest `_WALK`: one over thousands of demonstrations takes a few."""
+_WALK = """
+import sys, h5py
+from contextlib import suppress
+def visit(name, item):
+    for key in item.attrs:
+        with suppress(Exception):
+            item.attrs[key]
+with h5py.File(sys.argv[1], "r") as file:
+    file.visititems(visit)
+"""
 
 
-@dataclass(frozen=True)
-class _Columns:
+class _Columns(NamedTuple):
     """The channels of one dataset, which has the same columns in every demonstration."""
 
     dataset: str
@@ -42,13 +53,9 @@ def read(path: Path) -> Recording:
 
     The rate is `control_freq` of the environment where the file has it. Observations are usual;
     actions where there are none.
-
-    Raises:
-        RecordingError: Not such a file, cut short, or datasets that do not fit together.
-        MissingPackageError: h5py is not installed.
     """
     h5py = imported("h5py", "hdf5", "reading robomimic's HDF5")
-    check_walkable(path)
+    _check_walkable(path)
     try:
         with h5py.File(path, "r") as file:
             return _recording(path, file)
@@ -63,11 +70,8 @@ def write(path: Path, recording: Recording) -> None:
     """Write the recording as demonstrations with one observation key, `state` [T, D].
 
     `actions` are the next row's state (the last row its own), which is what a learner imitates;
-    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up.
-
-    Raises:
-        RecordingError: Gaps or uneven times, which robomimic cannot hold.
-        MissingPackageError: h5py is not installed.
+    `rewards` are 0 and `dones` 1 in the last row. No train and valid masks are made up. Gaps and
+    uneven times are refused.
     """
     h5py = imported("h5py", "hdf5", "writing robomimic's HDF5")
     check_even_and_whole(path, recording, "robomimic's HDF5")
@@ -82,11 +86,26 @@ def write(path: Path, recording: Recording) -> None:
     write_file(path, content.getvalue())
 
 
+def _check_walkable(path: Path) -> None:
+    """Let a child process walk over the file's groups and attributes before we do.
+
+    The HDF5 library crashes or hangs on damaged files: of those with a few random bytes changed
+    about one in a hundred takes the process down or keeps it for ever, nearly always in an
+    attribute of variable length. What the walk merely refuses is left to the reading.
+    """
+    try:
+        command = [sys.executable, "-P", "-c", _WALK, str(path)]
+        walk = subprocess.run(command, capture_output=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired as error:
+        raise RecordingError(f"{path}: damaged: HDF5 does not get through it") from error
+    if walk.returncode < 0:
+        raise RecordingError(f"{path}: damaged: HDF5 crashes on it (signal {-walk.returncode})")
+
+
 def _recording(path: Path, file: Any) -> Recording:
     data = file.get("data")
     groups = [key for key in data if _is_group(data[key])] if _is_group(data) else []
-    demos = sorted(groups, key=natural)
-    if not demos:
+    if not (demos := sorted(groups, key=natural)):
         raise RecordingError(
             f"{path}: no demonstrations: robomimic's HDF5 has groups data/demo_0, data/demo_1, …; "
             f"here are: {', '.join(file) or 'none'}"
@@ -96,15 +115,16 @@ def _recording(path: Path, file: Any) -> Recording:
         raise RecordingError(
             f"{path}: '{demos[0]}' has no floating-point datasets of shape [T] or [T, n]"
         )
-    episodes = tuple(_episode(path, data[demo], columns) for demo in demos)
+    observed = [c for c in columns if c.dataset.startswith("obs/")]
+    usual = observed or [c for c in columns if c.dataset == "actions"] or columns
     return Recording(
         source=path,
         channels=tuple(n for c in columns for n in c.names),
         units=tuple(u for c in columns for u in c.units),
         ranges={},
         rate_hz=_rate(data.attrs.get("env_args")),
-        episodes=episodes,
-        usual=_usual(columns),
+        episodes=tuple(_episode(path, data[demo], columns) for demo in demos),
+        usual=tuple(n for c in usual for n in c.names),
     )
 
 
@@ -115,9 +135,8 @@ def _columns(demo: Any) -> Iterator[_Columns]:
     paths += [key for key in demo if key != "obs"]
     for name in paths:
         dataset = demo[name]
-        if not _is_table(dataset) or DERIVED in dataset.attrs:
+        if not (width := _width(dataset)) or DERIVED in dataset.attrs:
             continue
-        width = 1 if dataset.ndim == 1 else dataset.shape[1]
         named, units = (strings(_json(dataset.attrs.get(a)), width) for a in ("names", "units"))
         label = name.removeprefix("obs/")
         plain = (label,) if dataset.ndim == 1 else tuple(f"{label}_{i}" for i in range(width))
@@ -128,10 +147,12 @@ def _is_group(item: Any) -> bool:
     return hasattr(item, "keys")
 
 
-def _is_table(item: Any) -> bool:
-    if not hasattr(item, "dtype") or item.dtype.kind != "f":
-        return False
-    return bool(item.ndim == 1 or (item.ndim == 2 and 0 < item.shape[1] <= WIDEST))
+def _width(item: Any) -> int:
+    """Return how many columns a dataset of numbers [T] or [T, n] has; 0 for anything else."""
+    if not hasattr(item, "dtype") or item.dtype.kind != "f" or item.ndim not in {1, 2}:
+        return 0
+    width = 1 if item.ndim == 1 else int(item.shape[1])
+    return width if width <= WIDEST else 0
 
 
 def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
@@ -140,7 +161,7 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     rows = {}
     for column in columns:
         dataset, width = demo.get(column.dataset), len(column.names)
-        if not _is_table(dataset) or (dataset.shape[1] if dataset.ndim == 2 else 1) != width:
+        if _width(dataset) != width:
             raise RecordingError(
                 f"{where} has no dataset {column.dataset} of {width} columns, "
                 f"which the first demonstration has"
@@ -159,12 +180,6 @@ def _episode(path: Path, demo: Any, columns: tuple[_Columns, ...]) -> Episode:
     values = np.concatenate(tables, axis=1, dtype=np.float64)
     name = demo.attrs.get("name")
     return Episode.whole(name if isinstance(name, str) else own_name, values)
-
-
-def _usual(columns: tuple[_Columns, ...]) -> tuple[str, ...]:
-    observed = [c for c in columns if c.dataset.startswith("obs/")]
-    acted = [c for c in columns if c.dataset == "actions"]
-    return tuple(n for c in observed or acted or columns for n in c.names)
 
 
 def _rate(env_args: Any) -> float | None:
@@ -186,11 +201,9 @@ def _json(text: Any) -> Any:
 
 def _write_demo(demo: Any, episode: Episode, recording: Recording) -> None:
     rows = len(episode.values)
-    demo.attrs["num_samples"] = rows
-    demo.attrs["name"] = episode.name
+    demo.attrs.update(num_samples=rows, name=episode.name)
     state = demo.create_dataset("obs/state", data=episode.values)
-    state.attrs["names"] = json.dumps(recording.channels)
-    state.attrs["units"] = json.dumps(recording.units)
+    state.attrs.update(names=json.dumps(recording.channels), units=json.dumps(recording.units))
     derived = {
         "actions": next_rows(episode.values),
         "rewards": np.zeros(rows),

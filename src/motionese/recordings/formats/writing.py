@@ -27,9 +27,7 @@ def write_file(path: Path, content: bytes | str) -> None:
 def new_folder(path: Path) -> Iterator[Path]:
     """Give a temporary folder beside `path` that gets its name once it is filled.
 
-    Raises:
-        RecordingError: `path` exists and is not an empty folder (nothing is ever overwritten), or
-            cannot be written.
+    `RecordingError` where `path` exists and is not an empty folder (nothing is ever overwritten).
     """
     if path.exists() and not (path.is_dir() and not any(path.iterdir())):
         raise RecordingError(f"{path}: exists already; give the name of a new folder")
@@ -45,12 +43,7 @@ def new_folder(path: Path) -> Iterator[Path]:
 
 
 def check_even_and_whole(path: Path, recording: Recording, what: str) -> None:
-    """Refuse what a format of evenly spaced rows without masks cannot hold.
-
-    Args:
-        path: The file or folder that is to be written.
-        recording: What is to be written.
-        what: The format, for the sentence.
+    """Refuse what a format of evenly spaced rows without masks cannot hold; `what` is its name.
 
     Raises:
         RecordingError: An episode is empty, has gaps, or is not evenly spaced at the rate.
