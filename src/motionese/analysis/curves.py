@@ -50,12 +50,9 @@ def course(loops: pd.DataFrame, condition: str, column: str) -> pd.DataFrame:
 
 
 def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | None) -> Figure:
-    """Draw the imitation error over the loops, one curve a condition.
+    """Draw the imitation error over the loops (as of `along_stages`), one curve a condition.
 
-    Args:
-        loops: A row per condition, seed, loop and motion, see `along_stages`.
-        looks: The conditions.
-        converged_cm: From which error on a run counts as converged, if there is such a bound.
+    Where a run counts as converged from some error on, that bound is drawn too.
     """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
@@ -115,9 +112,8 @@ def success(loops: pd.DataFrame, looks: Looks, outcomes: Sequence[Outcome]) -> F
 
 
 def _draw_course(axes: Axes, curve: pd.DataFrame, condition: str, look: Look) -> None:
-    axes.fill_between(
-        curve.index, curve["low"], curve["high"], color=look.colour, alpha=0.16, linewidth=0
-    )
+    band = curve.index, curve["low"], curve["high"]
+    axes.fill_between(*band, color=look.colour, alpha=0.16, linewidth=0)
     axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition)
 
 

@@ -38,8 +38,7 @@ def effects(measures: Measures, factors: Mapping[str, tuple[str, ...]]) -> pd.Da
                 continue
             differences = (complete[list(weights)] * pd.Series(weights)).sum(axis=1)
             found = _tested(differences.to_numpy(dtype=np.float64), f"{name}, {what}")
-            rows.append([name, what, found.value, found.low, found.high, found.p, found.effect,
-                         found.seeds])  # fmt: skip
+            rows.append([name, what, *found])
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -66,5 +65,5 @@ def _tested(differences: np.ndarray, what: str) -> Contrast:
     try:
         return contrast(differences, what)
     except TooFewSeedsError:
-        value = float(differences.mean())
-        return Contrast(value, np.nan, np.nan, np.nan, np.nan, len(differences))
+        value, nan = float(differences.mean()), np.nan
+        return Contrast(value, nan, nan, nan, nan, len(differences))

@@ -68,9 +68,8 @@ def _panel(
         if chosen.any():
             axes.add_patch(_arrows(grid, directions, lengths, chosen, paint))
     limits = (sides[0] - cell, sides[-1] + cell)
-    axes.set(xlim=limits, ylim=limits, aspect="equal")
-    axes.set_xticks([sides[0], 0, sides[-1]])
-    axes.set_yticks([sides[0], 0, sides[-1]])
+    ticks = [sides[0], 0, sides[-1]]
+    axes.set(xlim=limits, ylim=limits, aspect="equal", xticks=ticks, yticks=ticks)
     axes.spines[["top", "right"]].set_visible(True)
     axes.spines[:].set_color(FAINT)
 
