@@ -85,14 +85,9 @@ class Study(Settings):
                     f"{condition.name}: a network grows, and keeps what it has"
                 )
             opened = levels
-            stages.append(
-                Stage(
-                    lesson=self._lesson(task, number, self._chosen(stage.lesson, condition)),
-                    levels=levels,
-                    manner=self._manner(number, self._chosen(stage.caregiver, condition)),
-                    until=stage.until,
-                )
-            )
+            lesson = self._lesson(task, number, self._chosen(stage.lesson, condition))
+            manner = self._manner(number, self._chosen(stage.caregiver, condition))
+            stages.append(Stage(lesson=lesson, levels=levels, manner=manner, until=stage.until))
         return tuple(stages)
 
     def most_loops(self) -> int:
