@@ -48,13 +48,11 @@ class ExperimentData:
     runs give the same tables, whenever and in whichever order they were made.
 
     Attributes:
-        folder: The run folder.
         runs: A row per run: condition, seed, loops, seconds, status, reason.
         loops: A row per loop and motion.
         development: A row per loop on the network.
         novel: A row per new sequence, by the set's name.
         slow_state_map: A row per primitive and point of the map.
-        facts: Settings and environment.
     """
 
     folder: Path

@@ -123,9 +123,8 @@ def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
 
 def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     """Draw paths, activity and a film strip of each condition's run of median error."""
-    errors = data.new_sequences.pivot_table(
-        index="seed", columns="condition", values="imitation_error_cm", aggfunc="mean"
-    )
+    new, error = data.new_sequences, "imitation_error_cm"
+    errors = new.pivot_table(error, index="seed", columns="condition", aggfunc="mean")
     seeds = _typical(errors.reindex(columns=list(data.looks)))
     kept = {c: arrays for c, s in seeds.items() if (arrays := data.inside(c, s))}
     sample = sample_sequence(data.task)
@@ -160,8 +159,7 @@ def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
 
 
 def _strongest_effect(kept: Mapping[str, ndarray]) -> float:
-    effects = [values.max() for name, values in kept.items() if name.startswith("effect.")]
-    return float(max(effects, default=0.0))
+    return max((float(v.max()) for n, v in kept.items() if n.startswith("effect.")), default=0.0)
 
 
 def _performed(kept: Mapping[str, ndarray], data: ExperimentData) -> Performed:

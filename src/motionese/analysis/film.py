@@ -36,13 +36,7 @@ def moments(effects: Mapping[str, Float[ndarray, " T"]], rows: int) -> Int[ndarr
 def film(
     arrays: Mapping[str, ndarray], model: mujoco.MjModel, rate_hz: float
 ) -> tuple[Figure, str]:
-    """Draw the strip; return it with a note, which says why if it could not be rendered.
-
-    Args:
-        arrays: What was kept of the performance: poses, and effects.
-        model: The robot at its task.
-        rate_hz: Rows a second.
-    """
+    """Draw the strip; return it with a note that says why it could not be rendered, or ""."""
     effects = {name: values for name, values in arrays.items() if name.startswith("effect.")}
     rows = moments(effects, len(arrays["poses"]))
     note, rendered = "", None

@@ -36,12 +36,6 @@ def map_numbers(
     variance; median extent [rad]; the rms of the weights from the top level to the one below when
     learning with them began and when it ended. Columns ending in _1 and _2 are of the first and
     second segment.
-
-    Args:
-        points: The map, a row per condition, seed, primitive and grid point.
-        development: A row per loop on the network.
-        study: The settings of the runs.
-        strokes: Every primitive's true direction [rad] and extent [rad].
     """
     task, names = study.task.task(), level_names(study)
     rows = []

@@ -29,25 +29,22 @@ def page(
 ) -> str:
     """Return the page as HTML.
 
-    Args:
-        data: The runs.
-        measures: What is compared.
-        numbers: A row per condition and seed on its map.
-        effects: A row per effect of a factor, or of two, on a measure.
-        results: The paper's judged claims; none for a study of another design.
-        figures: The figures, in the order they are shown.
-        too_few: Why tests could not be made, or "".
+    A study of another design than the paper's has no `results`; `too_few` is why tests could not be
+    made, or "".
     """
     facts, warned = data.facts, warnings(numbers, data.study)
     question, answer = f"What was learned of {data.task.title}?", [_last_errors(measures)]
     if results:
         question, answer = mochizuki2013.QUESTION, [mochizuki2013.answer(measures), *warned]
     departures = groupby(mochizuki2013.departures() if results else (), lambda d: d.heading)
+    tables = ["loops", *data.novel, "slow_state_map", "map_numbers", "development", "effects"]
+    tables += ["claims", "runs"] if results else ["runs"]
     shown: dict[str, list[tuple[str, str, Markup]]] = {}
     for f in figures:
         shown.setdefault(f.section, []).append((f.name, f.caption, Markup(f.drawing.inline)))
-    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True)  # fmt: skip
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
     return environment.from_string(_part("report.html.jinja")).render(
         style=Markup(_part("report.css")),
         name=data.folder.resolve().name,
@@ -71,10 +68,9 @@ def page(
         settings=list(flat(facts.study.model_dump(mode="json"))),
         record=list(flat(facts.record)),
         environment=list(flat(facts.environment)),
-        tables=["loops", *data.novel, "slow_state_map", "map_numbers", "development",
-                "effects", *(["claims"] if results else []), "runs"],
+        tables=tables,
         figures=shown,
-    )  # fmt: skip
+    )
 
 
 def _last_errors(measures: Measures) -> str:

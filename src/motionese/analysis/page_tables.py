@@ -37,9 +37,8 @@ def _tested(row: Sequence[Any]) -> list[str]:
 
 def errors_table(measures: Measures, data: ExperimentData) -> Table:
     """Return the errors [cm] at the stages' ends and on new sequences."""
-    stages = [f"end of stage {number}" for number in measures.error_at_end]
-    head = ["condition", "seeds", *stages, "new, trained", "new, untrained", "sd over seeds",
-            "residual, untrained"]  # fmt: skip
+    head = ["condition", "seeds", *(f"end of stage {number}" for number in measures.error_at_end)]
+    head += ["new, trained", "new, untrained", "sd over seeds", "residual, untrained"]
     new, rows = data.new_sequences, []
     untrained = new[~new["trained"].astype(bool)]
     for name in data.looks:
@@ -72,9 +71,8 @@ def map_table(numbers: pd.DataFrame, data: ExperimentData) -> Table:
     """Return the map's numbers, a row per condition and segment."""
     below, top = level_names(data.study)
     shown_below, shown_top = below.capitalize(), top.capitalize()
-    head = ["condition", "segment", "resultant length", "within 45°", f"by {shown_below}₀",
-            f"by {shown_top}₀", "together", f"{shown_top}→{shown_below} rms before",
-            "after"]  # fmt: skip
+    head = ["condition", "segment", "resultant length", "within 45°", f"by {shown_below}₀"]
+    head += [f"by {shown_top}₀", "together", f"{shown_top}→{shown_below} rms before", "after"]
     shares = [f"share_{name}" for name in (below, top, "together")]
     rows = []
     for condition in data.looks:

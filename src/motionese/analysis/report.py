@@ -52,16 +52,10 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     measures = measured(data, numbers)
     found = effects(measures, study.factors)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
-    tables = {
-        "loops": data.loops,
-        "development": data.development,
-        **data.novel,
-        "slow_state_map": data.slow_state_map,
-        "map_numbers": numbers,
-        "runs": data.runs,
-        "effects": found,
-        **({"claims": claims_table(results)} if results else {}),
-    }
+    tables = {"loops": data.loops, "development": data.development, **data.novel}
+    tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
+    tables |= {"runs": data.runs, "effects": found}
+    tables |= {"claims": claims_table(results)} if results else {}
     try:
         for name, table in tables.items():
             text = table.to_csv(index=False, lineterminator="\n")

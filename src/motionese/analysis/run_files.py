@@ -51,7 +51,6 @@ def read_table(
     """Read a table of a run; `RunFolderError` if it is missing, or not as it was written.
 
     Args:
-        run: The run.
         name: The table's name, such as "loops".
         columns: Columns that it must have.
         rows: How many rows were written; None where that is not known.

@@ -25,8 +25,7 @@ class Measures:
         untrained_error: The same of those with a pair that was never taught.
         untrained_spread: Standard deviation [cm] of the latter over the sequences.
         resultant_length: Mean resultant length of the first segment's direction over the map.
-        slow_level_part: Share of the second segment's direction variance the top level takes part
-            in.
+        slow_level_part: Share of the variance of the second's that the top level takes part in.
     """
 
     error_at_end: dict[int, pd.DataFrame]

@@ -106,8 +106,7 @@ def verdict(tested: Contrast | None, seeds: int = 0, parts: int = 1) -> str:
     A claim is decided only where the interval leaves out 0 and the test agrees.
 
     Args:
-        tested: The contrast, positive where it speaks for the claim; None if there is none.
-        seeds: How many seeds there were when there is no contrast.
+        tested: The contrast; None with fewer seeds than a test needs, which are then `seeds`.
         parts: How many contrasts the claim has, any of which may speak against it.
     """
     if tested is not None:

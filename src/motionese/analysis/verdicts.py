@@ -77,6 +77,5 @@ def _judge_part(claim: Claim, part: Part) -> Judgement:
 
 
 def _strength(part: Judgement) -> tuple[int, float]:
-    rank = ("does not hold", "undecided", "holds")
-    place = next(i for i, word in enumerate(rank) if part.verdict.startswith(word))
-    return place, part.contrast.effect if part.contrast is not None else -inf
+    place = {"does not hold": 0, "holds": 2}.get(part.verdict, 1)
+    return place, part.contrast.effect if part.contrast else -inf

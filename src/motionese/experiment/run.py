@@ -105,8 +105,6 @@ def go_through(
     """Do what is left of a run, and return how it ended.
 
     Args:
-        run: The run.
-        settings: All settings.
         loop_done: Called after every loop with its number.
         recordings: Demonstrations that are shown in the place of scripted ones.
 
@@ -152,14 +150,9 @@ def _loop(
     known = {k: v for k, v in before.development.items() if k in opened} if before else {}
     acting = scene.settings.imitation
     earlier = {s.name for each in stages[:number] for s in each.lesson}
-    learner, rows, grown, status = imitation_loop(
-        scene,
-        learner,
-        stage,
-        loop,
-        acting.memory * max(len(each.lesson) for each in stages),
-        earlier if acting.rehearsal else (),
-    )
+    memory = acting.memory * max(len(each.lesson) for each in stages)
+    rehearsed = earlier if acting.rehearsal else ()
+    learner, rows, grown, status = imitation_loop(scene, learner, stage, loop, memory, rehearsed)
     return Checkpoint(
         origin=origin,
         loop=loop,

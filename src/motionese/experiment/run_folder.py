@@ -35,7 +35,6 @@ class RunFolder:
     """A run folder that this process may write to.
 
     Attributes:
-        path: Where it is.
         changed: What it was made with before and is not now, each as 'name: was → now'.
         shown: A digest of the recorded demonstrations of all its runs; empty if scripted.
     """
