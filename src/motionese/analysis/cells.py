@@ -2,15 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from motionese.analysis.statistics import Estimate
 
 NONE = "–"
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """Column headings and rows of cells."""
 
     head: Sequence[str]

@@ -50,17 +50,13 @@ def course(loops: pd.DataFrame, condition: str, column: str) -> pd.DataFrame:
 
 
 def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | None) -> Figure:
-    """Draw the imitation error over the loops, one curve a condition.
+    """Draw the imitation error over the loops (as of `along_stages`), one curve a condition.
 
-    Args:
-        loops: A row per condition, seed, loop and motion, see `along_stages`.
-        looks: The conditions.
-        converged_cm: From which error on a run counts as converged, if there is such a bound.
+    Where a run counts as converged from some error on, that bound is drawn too.
     """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
-    for condition, look in looks.items():
-        _draw_course(axes, course(loops, condition, "imitation_error_cm"), condition, look)
+    _draw_courses(axes, loops, looks, "imitation_error_cm")
     axes.set_yscale("log")
     if converged_cm is not None:
         axes.axhline(converged_cm, color=FAINT, linewidth=0.8, linestyle=":")
@@ -81,8 +77,7 @@ def error_sources(loops: pd.DataFrame, looks: Looks) -> Figure:
     figure = Figure(figsize=(WIDTH, 3.3))
     panels = figure.subplots(1, len(SOURCES), sharex=True, sharey=True)
     for axes, (column, title) in zip(panels, SOURCES.items(), strict=True):
-        for condition, look in looks.items():
-            _draw_course(axes, course(loops, condition, column), condition, look)
+        _draw_courses(axes, loops, looks, column)
         axes.set_yscale("log")
         _mark_stages(axes, loops)
         _plain_log(axes)
@@ -114,11 +109,12 @@ def success(loops: pd.DataFrame, looks: Looks, outcomes: Sequence[Outcome]) -> F
     return figure
 
 
-def _draw_course(axes: Axes, curve: pd.DataFrame, condition: str, look: Look) -> None:
-    axes.fill_between(
-        curve.index, curve["low"], curve["high"], color=look.colour, alpha=0.16, linewidth=0
-    )
-    axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition)
+def _draw_courses(axes: Axes, loops: pd.DataFrame, looks: Looks, column: str) -> None:
+    for condition, look in looks.items():
+        curve = course(loops, condition, column)
+        band = curve.index, curve["low"], curve["high"]
+        axes.fill_between(*band, color=look.colour, alpha=0.16, linewidth=0)
+        axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition)
 
 
 def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:

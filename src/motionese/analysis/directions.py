@@ -14,7 +14,7 @@ another's. All that Cs_0 takes part in is therefore 1 − by Cf_0.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -26,8 +26,7 @@ WITHIN = np.pi / 4
 """A direction counts as right up to this far [rad] from a true one."""
 
 
-@dataclass(frozen=True)
-class Shares:
+class Shares(NamedTuple):
     """Shares of the direction's variance, explained by Cf_0 alone and by Cs_0 alone."""
 
     by_held: float

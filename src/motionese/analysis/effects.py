@@ -13,16 +13,6 @@ from motionese.errors import TooFewSeedsError
 COLUMNS = ["effect", "measured", "statistic", "low", "high", "p", "effect_size", "seeds"]
 
 
-def end_measures(measures: Measures) -> dict[str, pd.DataFrame]:
-    """Return what is measured at the end, each a table of seeds and conditions, in words."""
-    errors = {f"error at the end of stage {n} [cm]": t for n, t in measures.error_at_end.items()}
-    new = {
-        "error on new sequences, trained [cm]": measures.trained_error,
-        "error on new sequences, untrained [cm]": measures.untrained_error,
-    }
-    return errors | measures.achieved | new
-
-
 def effects(measures: Measures, factors: Mapping[str, tuple[str, ...]]) -> pd.DataFrame:
     """Return a row per effect and measure: the mean difference over seeds, its interval and test.
 
@@ -30,16 +20,19 @@ def effects(measures: Measures, factors: Mapping[str, tuple[str, ...]]) -> pd.Da
     those with its first; an interaction of two factors half the difference of such effects. Only
     factors of two choices have them, and only seeds that were run in all conditions count.
     """
+    tables = {f"error at the end of stage {n} [cm]": t for n, t in measures.error_at_end.items()}
+    tables |= measures.achieved
+    tables["error on new sequences, trained [cm]"] = measures.trained_error
+    tables["error on new sequences, untrained [cm]"] = measures.untrained_error
     rows = []
-    for what, table in end_measures(measures).items():
+    for what, table in tables.items():
         complete = table.dropna()
         for name, weights in _weights(factors):
             if complete.empty:
                 continue
             differences = (complete[list(weights)] * pd.Series(weights)).sum(axis=1)
             found = _tested(differences.to_numpy(dtype=np.float64), f"{name}, {what}")
-            rows.append([name, what, found.value, found.low, found.high, found.p, found.effect,
-                         found.seeds])  # fmt: skip
+            rows.append([name, what, *found])
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -66,5 +59,5 @@ def _tested(differences: np.ndarray, what: str) -> Contrast:
     try:
         return contrast(differences, what)
     except TooFewSeedsError:
-        value = float(differences.mean())
-        return Contrast(value, np.nan, np.nan, np.nan, np.nan, len(differences))
+        value, nan = float(differences.mean()), np.nan
+        return Contrast(value, nan, nan, nan, nan, len(differences))

@@ -17,6 +17,7 @@ from motionese.analysis.style import Look, looks_of
 from motionese.body import SimulatedRobot, open_body
 from motionese.errors import RunFolderError
 from motionese.experiment import Run, Study, condition_named
+from motionese.experiment.run import runs_in
 from motionese.task import Task
 
 MAP = "slow_state_map"
@@ -30,15 +31,13 @@ def leading_columns(study: Study) -> dict[str, list[str]]:
     who, top = ["condition", "seed"], list(study.network.levels)[-1]
     new = [*who, "motion", "trained", *MEASURED, *of, "status"]
     ways = [f"{what}_{segment}_rad" for segment in (1, 2) for what in ("direction", "extent")]
+    loop = ["loop", "phase", "motion", *MEASURED, "reproduction_error_cm"]
     return {
-        "loops": [
-            *who, "loop", "phase", "motion", *MEASURED, "reproduction_error_cm", *of, "status",
-            "seconds",
-        ],
+        "loops": [*who, *loop, *of, "status", "seconds"],
         "development": [*who, "loop", "levels"],
         **dict.fromkeys(task.novel, new),
         MAP: [*who, "primitive", f"{top}_1", f"{top}_2", *ways],
-    }  # fmt: skip
+    }
 
 
 @dataclass(frozen=True)
@@ -49,13 +48,11 @@ class ExperimentData:
     runs give the same tables, whenever and in whichever order they were made.
 
     Attributes:
-        folder: The run folder.
         runs: A row per run: condition, seed, loops, seconds, status, reason.
         loops: A row per loop and motion.
         development: A row per loop on the network.
         novel: A row per new sequence, by the set's name.
         slow_state_map: A row per primitive and point of the map.
-        facts: Settings and environment.
     """
 
     folder: Path
@@ -81,13 +78,12 @@ class ExperimentData:
         """The rows of all sets of new sequences."""
         filled = [table for table in self.novel.values() if len(table)]
         none = self.loops.iloc[:0].assign(trained=False)
-        return pd.concat(filled, ignore_index=True) if filled else none
+        return pd.concat(filled or [none], ignore_index=True)
 
     @property
     def looks(self) -> dict[str, Look]:
         """The conditions that have an ended run, in order, and how each is drawn."""
-        present = set(self.loops["condition"])
-        looks = looks_of(self.study.factors)
+        present, looks = set(self.loops["condition"]), looks_of(self.study.factors)
         return {name: look for name, look in looks.items() if name in present}
 
     @cached_property
@@ -120,7 +116,7 @@ def collect(folder: Path) -> ExperimentData:
     if not folder.is_dir():
         raise RunFolderError(f"{folder}: there is no such run folder")
     facts = read_facts(folder)
-    runs = [(run, read_end(run)) for run in _runs(folder, facts.study)]
+    runs = [(run, read_end(run)) for run in runs_in(folder, facts.study)]
     ended = [(run, end) for run, end in runs if end is not None]
     if not ended:
         raise RunFolderError(
@@ -134,20 +130,8 @@ def collect(folder: Path) -> ExperimentData:
     return ExperimentData(folder=folder, runs=how, facts=facts, novel=novel, **tables)
 
 
-def _runs(folder: Path, study: Study) -> list[Run]:
-    found = []
-    for condition in study.conditions:
-        numbered = [
-            (int(path.name.removeprefix("seed-")), path)
-            for path in (folder / condition.folder).glob("seed-*")
-            if path.is_dir() and path.name.removeprefix("seed-").isdecimal()
-        ]
-        found += [Run(condition, seed, path) for seed, path in sorted(numbered)]
-    return found
-
-
 def _how_it_ended(run: Run, end: dict[str, Any] | None) -> dict[str, Any]:
-    loops = len(list(run.folder.glob("loop-*.safetensors")))
+    loops = run.loops_done()
     end = end or {"status": "unfinished", "reason": f"stopped after loop {loops}"}
     return {
         "condition": run.condition.name,
@@ -163,16 +147,18 @@ def _together(
     name: str, leading: list[str], ended: list[tuple[Run, dict[str, Any]]]
 ) -> pd.DataFrame:
     read = [_table(run, end, name, leading) for run, end in ended]
-    if not any(len(table) for table in read):
+    filled = [table for table in read if len(table)]
+    if not filled:
         return pd.DataFrame(columns=leading)
-    table = pd.concat([table for table in read if len(table)], ignore_index=True)
+    table = pd.concat(filled, ignore_index=True)
     others = [column for column in table.columns if column not in leading]
     return table.reindex(columns=[*leading, *others])
 
 
 def _table(run: Run, end: dict[str, Any], name: str, leading: list[str]) -> pd.DataFrame:
-    if end["status"] == "diverged" and name not in ("loops", "development"):
-        return pd.DataFrame()  # a diverged run is not evaluated
+    evaluated = name not in ("loops", "development")
+    if end["status"] == "diverged" and evaluated:
+        return pd.DataFrame()
     rows = end.get("rows", {}).get(f"{name}.csv")
     # A network without a slow level has no map, and a set of lessons alone nothing new.
-    return read_table(run, name, leading, rows, may_be_empty=name not in ("loops", "development"))
+    return read_table(run, name, leading, rows, may_be_empty=evaluated)

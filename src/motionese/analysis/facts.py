@@ -14,13 +14,7 @@ from motionese.experiment.run_folder import ENVIRONMENT, SETTINGS, run_settings
 
 @dataclass(frozen=True)
 class Facts:
-    """Settings and environment of a run folder.
-
-    Attributes:
-        study: The settings of all its runs.
-        record: Everything `settings.json` holds beside them, such as the preset.
-        environment: Everything `environment.json` holds.
-    """
+    """Settings of a run folder, what stands beside them such as the preset, and environment."""
 
     study: Study
     record: dict[str, Any]
@@ -60,16 +54,14 @@ def _in_words(value: Any) -> str:
         return "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, list | tuple):
         return ", ".join(_in_words(each) for each in value)
     return str(value)
 
 
 def _json(path: Path) -> dict[str, Any]:
-    if not path.is_file():
-        return {}
     try:
-        found = json.loads(path.read_text())
+        found = json.loads(path.read_text()) if path.is_file() else {}
     except (OSError, ValueError) as error:
         raise RunFolderError(f"{path}: not a JSON object: {error}") from error
     if not isinstance(found, dict):

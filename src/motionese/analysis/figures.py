@@ -1,10 +1,11 @@
 """Which figures the report shows, and what their captions say."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import pandas as pd
 from matplotlib import rc_context
+from matplotlib.figure import Figure
 from numpy import ndarray
 
 from motionese.analysis.curves import along_stages, error_sources, learning_curves, success
@@ -17,7 +18,6 @@ from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
 from motionese.analysis.seed_measures import Measures, typical_seed
-from motionese.analysis.style import Sketch
 from motionese.figure_style import SETTINGS, Drawing, finished
 from motionese.imitation import sample_sequence
 
@@ -27,8 +27,7 @@ OVER_SEEDS = (
 )
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(NamedTuple):
     """A figure with its name, the report's section it belongs to, and its caption."""
 
     name: str
@@ -41,35 +40,35 @@ def figures(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     """Draw all figures that the runs allow, one after the other."""
     for draw in (_over_loops, _of_new_sequences, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):
-            drawn = [
-                Shown(each.name, each.section, each.caption, finished(each.figure, each.name))
-                for each in draw(data, measures)
-            ]
+            drawn = list(draw(data, measures))
         yield from drawn
 
 
-def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+def _shown(name: str, section: str, caption: str, figure: Figure) -> Shown:
+    return Shown(name, section, caption, finished(figure, name))
+
+
+def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     loops, looks = along_stages(data.loops), data.looks
-    converged = CONVERGED_CM if has_its_design(data.study) else None
-    stages = (
-        " Upright lines are changes of stage: what is taught changes, or a level of the network "
-        "opens."
-        if len(data.study.stages) > 1
-        else ""
-    )
+    converged, stages = CONVERGED_CM if has_its_design(data.study) else None, ""
+    if len(data.study.stages) > 1:
+        stages = (
+            " Upright lines are changes of stage: what is taught changes, or a level of the "
+            "network opens."
+        )
     if not loops["loop"].equals(data.loops["loop"]):
         stages += (
             " Runs took different numbers of loops over a stage: each stage begins after the "
             "longest run of the one before, and its last loops are those of the slowest runs alone."
         )
-    yield Sketch(
+    yield _shown(
         "learning_curves",
         "learning",
         "Imitation error over the loops: mean distance of the robot's hand from the shown one. "
         f"{OVER_SEEDS}{stages}",
         learning_curves(loops, looks, converged),
     )
-    yield Sketch(
+    yield _shown(
         "error_sources",
         "learning",
         "Where the error comes from: what was recognised against what was shown, what the body did "
@@ -77,7 +76,7 @@ def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
         f"experience. {OVER_SEEDS}",
         error_sources(loops, looks),
     )
-    yield Sketch(
+    yield _shown(
         "success",
         "success",
         "What was achieved, all seeds and motions of a loop together: "
@@ -86,11 +85,11 @@ def _over_loops(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
     )
 
 
-def _of_new_sequences(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+def _of_new_sequences(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     present = set(data.new_sequences["condition"])
     looks = {name: look for name, look in data.looks.items() if name in present}
     if looks:
-        yield Sketch(
+        yield _shown(
             "new_sequences",
             "new sequences",
             "Imitation of new sequences after the last loop, none of which was taught as a whole: "
@@ -101,7 +100,7 @@ def _of_new_sequences(data: ExperimentData, measures: Measures) -> Iterator[Sket
         )
 
 
-def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     shown = _typical(measures.resultant_length)
     if not shown:
         return
@@ -110,7 +109,7 @@ def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
         (1, "the first segment", "the primitive's own direction"),
         (2, "the second segment", "the direction of a primitive that may follow"),
     ):
-        yield Sketch(
+        yield _shown(
             f"slow_state_map_{segment}",
             "map",
             f"The map of {top}₀, {what}: where the hand goes, as the robot sees it, when each "
@@ -122,18 +121,17 @@ def _of_the_map(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
         )
 
 
-def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Sketch]:
+def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     """Draw paths, activity and a film strip of each condition's run of median error."""
-    errors = data.new_sequences.pivot_table(
-        index="seed", columns="condition", values="imitation_error_cm", aggfunc="mean"
-    )
+    new, error = data.new_sequences, "imitation_error_cm"
+    errors = new.pivot_table(error, index="seed", columns="condition", aggfunc="mean")
     seeds = _typical(errors.reindex(columns=list(data.looks)))
     kept = {c: arrays for c, s in seeds.items() if (arrays := data.inside(c, s))}
     sample = sample_sequence(data.task)
     if not kept or sample is None:
         return
     chosen = f"Shown is the seed of median error: {_in_words({c: seeds[c] for c in kept})}."
-    yield Sketch(
+    yield _shown(
         "paths",
         "inside",
         "The hand's path (coloured) against the shown one (grey), as the robot sees them, for "
@@ -141,19 +139,18 @@ def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Sketch]
         f"pressed. {chosen}",
         paths(kept, data),
     )
-    yield Sketch(
+    yield _shown(
         "inside",
         "inside",
         f"The network while it performs {sample.name}: activity of every unit, the slowest level "
         "on top, and the way of the context units through the plane of their largest variance. "
         "Upright lines and circled numbers: where the next primitive begins in what was shown; "
         f"dot: start; square: end. {chosen}",
-        inside({c: _performed(a, data) for c, a in kept.items()}, sample.name,
-               data.looks),
-    )  # fmt: skip
+        inside({c: _performed(a, data) for c, a in kept.items()}, sample.name, data.looks),
+    )
     strongest = max(kept, key=lambda c: _strongest_effect(kept[c]))
     strip, note = film(kept[strongest], data.robot.model, data.robot.rate_hz)
-    yield Sketch(
+    yield _shown(
         "film",
         "inside",
         f"The robot performs {sample.name}: {strongest}, seed {seeds[strongest]}. {note}".strip(),
@@ -162,8 +159,7 @@ def _of_the_inside(data: ExperimentData, measures: Measures) -> Iterator[Sketch]
 
 
 def _strongest_effect(kept: Mapping[str, ndarray]) -> float:
-    effects = [values.max() for name, values in kept.items() if name.startswith("effect.")]
-    return float(max(effects, default=0.0))
+    return max((float(v.max()) for n, v in kept.items() if n.startswith("effect.")), default=0.0)
 
 
 def _performed(kept: Mapping[str, ndarray], data: ExperimentData) -> Performed:
@@ -182,5 +178,4 @@ def _typical(by_seed: pd.DataFrame) -> dict[str, int]:
 
 
 def _in_words(shown: Mapping[str, int]) -> str:
-    """Return which seed of each condition is shown."""
     return ", ".join(f"{condition} {seed}" for condition, seed in shown.items())

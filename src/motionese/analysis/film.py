@@ -22,9 +22,7 @@ ROUND = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 def moments(effects: Mapping[str, Float[ndarray, " T"]], rows: int) -> Int[ndarray, " F"]:
     """Return the rows to show: from the start over the first strongest effect to its end.
 
-    Args:
-        effects: What the task's things told, such as how deep buttons were pressed [mm].
-        rows: Rows of the performance, shown evenly where nothing was brought about.
+    Where nothing was brought about, they lie evenly over the performance's `rows`.
     """
     strongest = max(effects.values(), key=lambda values: float(values.max()), default=np.zeros(1))
     pressed = int(strongest.argmax())
@@ -38,13 +36,7 @@ def moments(effects: Mapping[str, Float[ndarray, " T"]], rows: int) -> Int[ndarr
 def film(
     arrays: Mapping[str, ndarray], model: mujoco.MjModel, rate_hz: float
 ) -> tuple[Figure, str]:
-    """Draw the strip; return it with a note, which says why if it could not be rendered.
-
-    Args:
-        arrays: What was kept of the performance: poses, and effects.
-        model: The robot at its task.
-        rate_hz: Rows a second.
-    """
+    """Draw the strip; return it with a note that says why it could not be rendered, or ""."""
     effects = {name: values for name, values in arrays.items() if name.startswith("effect.")}
     rows = moments(effects, len(arrays["poses"]))
     note, rendered = "", None
@@ -61,8 +53,7 @@ def film(
             axes.imshow(rendered[place], interpolation="none")
         else:
             _from_the_side(axes, geometry, arrays["poses"][row])
-        axes.set_xticks([])
-        axes.set_yticks([])
+        axes.set(xticks=[], yticks=[])
         axes.spines[:].set_visible(False)
         deepest = max((values[row] for values in effects.values()), default=None)
         pressed = "" if deepest is None else f", pressed {deepest:.1f} mm"
@@ -81,7 +72,9 @@ def _from_the_side(axes: Axes, geometry: Geometry, pose: Float[ndarray, " P"]) -
         points = _turned(body[3:], _turned(np.array(shape["quat"]), _corners(shape)) + shape["pos"])
         outlines.append((points + body[:3], shape["rgba"]))
     for points, colour in sorted(outlines, key=lambda each: -float(each[0][:, 1].mean())):
-        axes.add_patch(Polygon(_hull(points[:, [0, 2]]), facecolor=colour, edgecolor="none"))
+        flat = points[:, [0, 2]]
+        hull = flat[ConvexHull(flat, qhull_options="QJ").vertices]
+        axes.add_patch(Polygon(hull, facecolor=colour, edgecolor="none"))
     axes.set(xlim=(-0.2, 0.9), ylim=(0.58, 1.45), aspect="equal")
 
 
@@ -105,8 +98,3 @@ def _turned(
     w, axis = quaternion[0], quaternion[1:]
     twice = 2 * np.cross(axis, points)
     return np.asarray(points + w * twice + np.cross(axis, twice))
-
-
-def _hull(points: Float[ndarray, "N 2"]) -> Float[ndarray, "H 2"]:
-    """Return the convex hull of points in a plane."""
-    return np.asarray(points[ConvexHull(points, qhull_options="QJ").vertices])

@@ -18,13 +18,9 @@ FEW_UNITS = 15
 
 @dataclass(frozen=True)
 class Performed:
-    """One performance from within.
+    """One performance from within: y of all units [T, N], and the columns of each level.
 
-    Attributes:
-        activity: y of all units. [T, N]
-        levels: Which columns are whose, from IO upwards.
-        boundaries: The rows at which a next primitive begins.
-        rate_hz: Rows a second.
+    Levels go from IO upwards; `boundaries` are the rows at which a next primitive begins.
     """
 
     activity: Float[ndarray, "T N"]
@@ -52,7 +48,7 @@ def inside(performed: Mapping[str, Performed], motion: str, looks: Looks) -> Fig
     rows = figure.subfigures(len(performed), 1, squeeze=False)[:, 0]
     for place, (row, (condition, one)) in enumerate(zip(rows, performed.items(), strict=True)):
         context = [name for name in one.levels if name != "io"]
-        widths = [2.0] + [1.0] * len(context)
+        widths = [2.0, *[1.0] * len(context)]
         left, *planes = row.subfigures(1, len(widths), width_ratios=widths)
         _activity(left, one, f"{condition}, {motion}", last=place == len(rows) - 1)
         for part, name in zip(planes, context, strict=True):
@@ -64,9 +60,8 @@ def _activity(figure: SubFigure, one: Performed, title: str, *, last: bool) -> N
     sizes = [part.stop - part.start for part in one.levels.values()]
     heights = [size * (2.0 if size <= FEW_UNITS else 0.5) for size in sizes]
     # The slowest level is on top, as in drawings of the network.
-    panels = figure.subplots(
-        len(heights), 1, sharex=True, squeeze=False, height_ratios=heights[::-1]
-    )[:, 0]
+    heights.reverse()
+    panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)[:, 0]
     duration = len(one.activity) / one.rate_hz
     for axes, (name, part) in zip(panels, reversed(list(one.levels.items())), strict=True):
         picture = axes.imshow(
@@ -76,8 +71,8 @@ def _activity(figure: SubFigure, one: Performed, title: str, *, last: bool) -> N
         for row in one.boundaries:
             axes.axvline(row / one.rate_hz, color=PAPER, linewidth=1.2)
         axes.set_yticks([])
-        axes.set_ylabel(name.capitalize() if name != "io" else "IO", rotation=0, ha="right",
-                        va="center")  # fmt: skip
+        label = name.capitalize() if name != "io" else "IO"
+        axes.set_ylabel(label, rotation=0, ha="right", va="center")
         axes.spines[:].set_visible(False)
     panels[0].set_title(title)
     for axes in panels:
@@ -100,8 +95,7 @@ def _plane(axes: Axes, one: Performed, level: str, colour: str) -> None:
         axes.annotate(str(number), points[row], ha="center", va="center_baseline", fontsize=7.5)
     axes.plot(*points[-1], marker="s", color=INK, markersize=5.5, linestyle="none")
     axes.set_title(f"{level.capitalize()}, principal plane", fontsize=9)
-    axes.set_xlabel(f"PC 1 ({share[0]:.0%})")
-    axes.set_ylabel(f"PC 2 ({share[1]:.0%})")
+    axes.set(xlabel=f"PC 1 ({share[0]:.0%})", ylabel=f"PC 2 ({share[1]:.0%})")
     axes.margins(0.14)
     axes.set_aspect("equal", adjustable="datalim")
     axes.tick_params(labelsize=7.5, length=2)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Complex, Float
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
@@ -23,12 +23,8 @@ HEAD = np.radians(150)
 def slow_state_map(data: ExperimentData, shown: Mapping[str, int], segment: int) -> Figure:
     """Draw the map of one seed a condition: a row per condition, a column per primitive.
 
-    An arrow is as long as a grid cell where the hand goes as far as the stroke is long.
-
-    Args:
-        data: The runs.
-        shown: The seed that is shown of each condition.
-        segment: 1 for the primitive whose state is held, 2 for what follows it.
+    An arrow is as long as a grid cell where the hand goes as far as the stroke is long. `shown` are
+    the conditions' seeds; segment 1 is the primitive whose state is held, 2 what follows it.
     """
     points, strokes = data.slow_state_map, data.strokes
     below, top = (name.capitalize() for name in level_names(data.study))
@@ -64,30 +60,23 @@ def _panel(
     sides = np.unique(grid[:, 0])
     cell = float(sides[1] - sides[0])
     lengths = cell * np.minimum(extents / np.mean([extent for _, extent in right]), 1.0)
+    arrows = lengths * np.exp(1j * directions)
     for chosen, paint in ((near, colour), (~near, ASTRAY)):
         if chosen.any():
-            axes.add_patch(_arrows(grid, directions, lengths, chosen, paint))
+            axes.add_patch(_arrows(grid[chosen], arrows[chosen], paint))
     limits = (sides[0] - cell, sides[-1] + cell)
-    axes.set(xlim=limits, ylim=limits, aspect="equal")
-    axes.set_xticks([sides[0], 0, sides[-1]])
-    axes.set_yticks([sides[0], 0, sides[-1]])
+    ticks = [sides[0], 0, sides[-1]]
+    axes.set(xlim=limits, ylim=limits, aspect="equal", xticks=ticks, yticks=ticks)
     axes.spines[["top", "right"]].set_visible(True)
     axes.spines[:].set_color(FAINT)
 
 
-def _arrows(
-    grid: Float[ndarray, "G 2"],
-    directions: Float[ndarray, " G"],
-    lengths: Float[ndarray, " G"],
-    chosen: Bool[ndarray, " G"],
-    colour: str,
-) -> PathPatch:
-    """Return arrows centred on grid points, as one path."""
-    z = lengths[chosen] * np.exp(1j * directions[chosen])
-    middle = grid[chosen] @ np.array([1, 1j])
+def _arrows(grid: Float[ndarray, "G 2"], z: Complex[ndarray, " G"], colour: str) -> PathPatch:
+    """Return arrows z = x + iy centred on grid points, as one path."""
+    middle = grid @ np.array([1, 1j])
     tail, tip = middle - z / 2, middle + z / 2
     barbs = [tip + 0.38 * z * np.exp(1j * turn) for turn in (HEAD, -HEAD)]
     lines = np.stack([tail, tip, barbs[0], tip, barbs[1]], axis=1).reshape(-1)
-    codes = np.tile([Path.MOVETO] + [Path.LINETO] * 4, int(chosen.sum()))
+    codes = np.tile([Path.MOVETO] + [Path.LINETO] * 4, len(z))
     path = Path(np.stack([lines.real, lines.imag], axis=1), codes)
     return PathPatch(path, fill=False, edgecolor=colour, linewidth=0.8, joinstyle="round")

@@ -32,17 +32,10 @@ def map_numbers(
 ) -> pd.DataFrame:
     """Return a row of numbers for each condition and seed that has a map.
 
-    Args:
-        points: The map, a row per condition, seed, primitive and grid point.
-        development: A row per loop on the network.
-        study: The settings of the runs.
-        strokes: Every primitive's true direction [rad] and extent [rad].
-
-    Returns:
-        Resultant length and share within 45°, averaged over the primitives; shares of the
-        direction's variance; median extent [rad]; the rms of the weights from the top level to the
-        one below when learning with them began and when it ended. Columns ending in _1 and _2 are
-        of the first and second segment.
+    Resultant length and share within 45°, averaged over the primitives; shares of the direction's
+    variance; median extent [rad]; the rms of the weights from the top level to the one below when
+    learning with them began and when it ended. Columns ending in _1 and _2 are of the first and
+    second segment.
     """
     task, names = study.task.task(), level_names(study)
     rows = []
@@ -54,7 +47,7 @@ def map_numbers(
             for segment in SEGMENTS:
                 row |= _segment(own, segment, names, task, strokes)
             rows.append(row | _weights(development, condition.name, seed, names))
-    return pd.DataFrame(rows, columns=None if rows else _columns(names))
+    return pd.DataFrame(rows, columns=None if rows else _columns(*names))
 
 
 def level_names(study: Study) -> tuple[str, str]:
@@ -63,30 +56,21 @@ def level_names(study: Study) -> tuple[str, str]:
     return below, top
 
 
-def _columns(names: tuple[str, str]) -> list[str]:
-    (below, top), measured = names, ("resultant_length", "within_45", "extent_rad")
+def _columns(below: str, top: str) -> list[str]:
     shares = [f"share_{name}" for name in (below, top, "together")]
-    return [
-        "condition",
-        "seed",
-        *(f"{name}_{segment}" for segment in SEGMENTS for name in (*measured, *shares)),
-        *(f"rms_{top}_to_{below}_{when}" for when in ("before", "after")),
-    ]
+    measured = ["resultant_length", "within_45", "extent_rad", *shares]
+    block = [f"rms_{top}_to_{below}_{when}" for when in ("before", "after")]
+    return ["condition", "seed", *(f"{name}_{i}" for i in SEGMENTS for name in measured), *block]
 
 
 def _segment(
     points: pd.DataFrame, segment: int, names: tuple[str, str], task: Task, strokes: Strokes
 ) -> dict[str, float]:
     below, top = names
-    table = points.pivot_table(
-        index="primitive",
-        columns=[f"{top}_1", f"{top}_2"],
-        values=f"direction_{segment}_rad",
-        sort=True,
-    )
+    grid = [f"{top}_1", f"{top}_2"]
+    table = points.pivot_table(f"direction_{segment}_rad", index="primitive", columns=grid)
     directions = table.to_numpy(dtype=np.float64)
-    primitives = [str(name) for name in table.index]
-    right = [(name,) if segment == 1 else following(task, name) for name in primitives]
+    right = [(name,) if segment == 1 else following(task, name) for name in map(str, table.index)]
     shares = direction_shares(directions)
     within = [
         share_within(row, [strokes[name][0] for name in allowed])
@@ -107,8 +91,7 @@ def _weights(
 ) -> dict[str, float]:
     below, top = names
     own = development[(development["condition"] == condition) & (development["seed"] == seed)]
-    last = own.sort_values("loop").tail(1)
-    block = f"rms_{top}_to_{below}"
+    last, block = own.sort_values("loop").tail(1), f"rms_{top}_to_{below}"
     values = {f"{block}_before": f"{block}_at_opening", f"{block}_after": block}
     return {
         name: float(last[column].iloc[0]) if column in last and len(last) else np.nan
@@ -127,22 +110,20 @@ def warnings(numbers: pd.DataFrame, study: Study) -> list[str]:
             continue
         middle = own.drop(columns="condition").median()
         before, after = (middle[f"rms_{top}_to_{below}_{when}"] for when in ("before", "after"))
-        if not abs(after - before) < UNMOVED * before:
-            continue
-        parts = [1 - middle[f"share_{below}_{segment}"] for segment in SEGMENTS]
-        said = f"{condition.name} ({before:.2f} → {after:.2f}; {parts[0]:.1%} and {parts[1]:.1%})"
-        (idle if max(parts) < NOTHING else as_drawn).append(said)
-    sentences = []
+        if abs(after - before) < UNMOVED * before:
+            parts = [1 - middle[f"share_{below}_{segment}"] for segment in SEGMENTS]
+            shares = " and ".join(f"{part:.1%}" for part in parts)
+            said = f"{condition.name} ({before:.2f} → {after:.2f}; {shares})"
+            (idle if max(parts) < NOTHING else as_drawn).append(said)
+    sentences, unmoved = [], f"its weights to {below.capitalize()} hardly moved in learning"
     if idle:
         sentences.append(
-            f"The slow level does nothing in {listed(idle)}: its weights to {below.capitalize()} "
-            "hardly moved in learning, and a map over it proves nothing."
+            f"The slow level does nothing in {listed(idle)}: {unmoved}, and a map over it proves "
+            "nothing."
         )
     if as_drawn:
-        sentences.append(
-            f"The map shows the slow level as it was drawn at random in {listed(as_drawn)}: its "
-            f"weights to {below.capitalize()} hardly moved in learning."
-        )
+        drawn = "The map shows the slow level as it was drawn at random in"
+        sentences.append(f"{drawn} {listed(as_drawn)}: {unmoved}.")
     if sentences:
         sentences[-1] += (
             " (In brackets: the rms of those weights before and after; the share of the variance "

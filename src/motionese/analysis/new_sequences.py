@@ -59,7 +59,5 @@ def _column(axes: Axes, values: "pd.Series[float]", x: float, shift: object, loo
     )  # fmt: skip
     middle = estimate(values.to_numpy(dtype=np.float64))
     axes.plot([x + BESIDE] * 2, [middle.low, middle.high], color=INK, linewidth=1.2, zorder=4)
-    axes.plot(
-        x + BESIDE, middle.value, marker="_", color=INK, markersize=11, markeredgewidth=2.4,
-        zorder=4,
-    )  # fmt: skip
+    (bar,) = axes.plot(x + BESIDE, middle.value, marker="_", color=INK, markersize=11, zorder=4)
+    bar.set_markeredgewidth(2.4)

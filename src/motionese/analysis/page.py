@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from importlib import resources
 from itertools import groupby
-from typing import Any
 
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
@@ -30,23 +29,33 @@ def page(
 ) -> str:
     """Return the page as HTML.
 
-    Args:
-        data: The runs.
-        measures: What is compared.
-        numbers: A row per condition and seed on its map.
-        effects: A row per effect of a factor, or of two, on a measure.
-        results: The paper's judged claims; none for a study of another design.
-        figures: The figures, in the order they are shown.
-        too_few: Why tests could not be made, or "".
+    A study of another design than the paper's has no `results`; `too_few` is why tests could not be
+    made, or "".
     """
     facts, warned = data.facts, warnings(numbers, data.study)
-    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-                              lstrip_blocks=True)  # fmt: skip
+    question, answer = f"What was learned of {data.task.title}?", [_last_errors(measures)]
+    if results:
+        question, answer = mochizuki2013.QUESTION, [mochizuki2013.answer(measures), *warned]
+    departures = groupby(mochizuki2013.departures() if results else (), lambda d: d.heading)
+    tables = ["loops", *data.novel, "slow_state_map", "map_numbers", "development", "effects"]
+    tables += ["claims", "runs"] if results else ["runs"]
+    shown: dict[str, list[tuple[str, str, Markup]]] = {}
+    for f in figures:
+        shown.setdefault(f.section, []).append((f.name, f.caption, Markup(f.drawing.inline)))
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
     return environment.from_string(_part("report.html.jinja")).render(
         style=Markup(_part("report.css")),
         name=data.folder.resolve().name,
         version=__version__,
-        **_of_the_paper(measures, results, warned) if results else _of_any(data, measures),
+        question=question,
+        answer=answer,
+        results=results,
+        claims=page_tables.claims_rows(claims_table(results)),
+        converged=mochizuki2013.CONVERGED_CM,
+        same=mochizuki2013.SAME,
+        departures=[(heading, list(each)) for heading, each in departures],
         too_few=too_few,
         last_loops=LAST_LOOPS,
         effects=page_tables.effects_rows(effects),
@@ -59,55 +68,15 @@ def page(
         settings=list(flat(facts.study.model_dump(mode="json"))),
         record=list(flat(facts.record)),
         environment=list(flat(facts.environment)),
-        tables=["loops", *data.novel, "slow_state_map", "map_numbers", "development",
-                "effects", *(["claims"] if results else []), "runs"],
-        figures={
-            section: [(f.name, f.caption, Markup(f.drawing.inline)) for f in each]
-            for section, each in _by_section(figures).items()
-        },
-    )  # fmt: skip
+        tables=tables,
+        figures=shown,
+    )
 
 
-def _of_the_paper(
-    measures: Measures, results: Sequence[Judgement], warned: list[str]
-) -> dict[str, Any]:
-    """Return what the page says of a study of the paper's design."""
-    return {
-        "question": mochizuki2013.QUESTION,
-        "answer": [mochizuki2013.answer(measures), *warned],
-        "main_claims": [(each.claim.text, each.verdict) for each in results if each.claim.main],
-        "claims": page_tables.claims_rows(claims_table(list(results))),
-        "main": [each.claim.main for each in results],
-        "definitions": {"converged": mochizuki2013.CONVERGED_CM, "same": mochizuki2013.SAME},
-        "departures": [
-            (heading, list(each))
-            for heading, each in groupby(mochizuki2013.departures(), lambda d: d.heading)
-        ],
-    }
-
-
-def _of_any(data: ExperimentData, measures: Measures) -> dict[str, Any]:
-    """Return what the page says of a study of another design."""
+def _last_errors(measures: Measures) -> str:
     last = measures.last_error.median().dropna().sort_values()
     told = ", ".join(f"{error:.1f} cm in {name}" for name, error in last.items())
-    return {
-        "question": f"What was learned of {data.task.title}?",
-        "answer": [
-            f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
-        ],
-        "main_claims": [],
-        "claims": None,
-        "main": [],
-        "definitions": {},
-        "departures": [],
-    }
-
-
-def _by_section(figures: Sequence[Shown]) -> dict[str, list[Shown]]:
-    sections: dict[str, list[Shown]] = {}
-    for each in figures:
-        sections.setdefault(each.section, []).append(each)
-    return sections
+    return f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
 
 
 def _part(name: str) -> str:

@@ -1,5 +1,8 @@
 """The page's tables: claims, effects, errors, what was achieved, the map's numbers, the runs."""
 
+from collections.abc import Sequence
+from typing import Any
+
 import pandas as pd
 
 from motionese.analysis.cells import NONE, Table, number, with_interval
@@ -9,58 +12,43 @@ from motionese.analysis.seed_measures import Measures, last_loops
 from motionese.analysis.statistics import Estimate, estimate
 from motionese.task import Outcome
 
+TESTED = ["mean [95 %]", "p", "d", "seeds"]
+
 
 def claims_rows(table: pd.DataFrame) -> Table:
     """Return the claims for the page: claim, what is measured, numbers, verdict."""
-    rows = []
-    for row in table.to_dict("records"):
-        digits = 3 if row["measured"].endswith("[1]") else 2
-        found = Estimate(row["statistic"], row["low"], row["high"], row["seeds"])
-        rows.append([
-            row["claim"],
-            row["measured"],
-            with_interval(found, digits),
-            number(row["p"], 3),
-            number(row["effect"]),
-            str(row["seeds"]),
-            row["verdict"],
-        ])  # fmt: skip
-    head = ["claim, and what is measured: positive speaks for it", "mean [95 %]", "p", "d",
-            "seeds", "verdict"]  # fmt: skip
-    return Table(head, rows)
+    head = ["claim, and what is measured: positive speaks for it", *TESTED, "verdict"]
+    return Table(head, [[*_tested(row), row[-1]] for row in table.itertuples(index=False)])
 
 
 def effects_rows(table: pd.DataFrame) -> Table:
     """Return main effects and interactions for the page."""
-    rows = []
-    for row in table.to_dict("records"):
-        found = Estimate(row["statistic"], row["low"], row["high"], row["seeds"])
-        rows.append([
-            row["effect"], row["measured"], with_interval(found), number(row["p"], 3),
-            number(row["effect_size"]), str(row["seeds"]),
-        ])  # fmt: skip
-    return Table(["effect", "measured", "mean [95 %]", "p", "d", "seeds"], rows)
+    rows = [_tested(row) for row in table.itertuples(index=False)]
+    return Table(["effect", "measured", *TESTED], rows)
+
+
+def _tested(row: Sequence[Any]) -> list[str]:
+    """Return what is tested, how it is measured, and the contrast, in words."""
+    what, measured, value, low, high, p, effect, seeds, *_ = row
+    digits = 3 if measured.endswith("[1]") else 2
+    interval = with_interval(Estimate(value, low, high, seeds), digits)
+    return [what, measured, interval, number(p, 3), number(effect), str(seeds)]
 
 
 def errors_table(measures: Measures, data: ExperimentData) -> Table:
     """Return the errors [cm] at the stages' ends and on new sequences."""
-    stages = [f"end of stage {number}" for number in measures.error_at_end]
-    head = ["condition", "seeds", *stages, "new, trained", "new, untrained", "sd over seeds",
-            "residual, untrained"]  # fmt: skip
+    head = ["condition", "seeds", *(f"end of stage {number}" for number in measures.error_at_end)]
+    head += ["new, trained", "new, untrained", "sd over seeds", "residual, untrained"]
     new, rows = data.new_sequences, []
     untrained = new[~new["trained"].astype(bool)]
     for name in data.looks:
         columns = [table[name] for table in measures.error_at_end.values()]
         columns += [measures.trained_error[name], measures.untrained_error[name]]
         own = untrained[untrained["condition"] == name]
-        residual = own.groupby("seed")["recognition_residual_cm"].mean().astype(float)
-        rows.append([
-            name,
-            str(measures.last_error[name].count()),
-            *(with_interval(_over_seeds(column)) for column in columns),
-            number(float(measures.untrained_error[name].std())),
-            with_interval(_over_seeds(residual)),
-        ])  # fmt: skip
+        columns += [own.groupby("seed")["recognition_residual_cm"].mean().astype(float)]
+        *intervals, residual = map(_over_seeds, columns)
+        seeds, sd = measures.last_error[name].count(), measures.untrained_error[name].std()
+        rows.append([name, str(seeds), *intervals, number(float(sd)), residual])
     return Table(head, rows)
 
 
@@ -83,9 +71,8 @@ def map_table(numbers: pd.DataFrame, data: ExperimentData) -> Table:
     """Return the map's numbers, a row per condition and segment."""
     below, top = level_names(data.study)
     shown_below, shown_top = below.capitalize(), top.capitalize()
-    head = ["condition", "segment", "resultant length", "within 45°", f"by {shown_below}₀",
-            f"by {shown_top}₀", "together", f"{shown_top}→{shown_below} rms before",
-            "after"]  # fmt: skip
+    head = ["condition", "segment", "resultant length", "within 45°", f"by {shown_below}₀"]
+    head += [f"by {shown_top}₀", "together", f"{shown_top}→{shown_below} rms before", "after"]
     shares = [f"share_{name}" for name in (below, top, "together")]
     rows = []
     for condition in data.looks:
@@ -93,15 +80,12 @@ def map_table(numbers: pd.DataFrame, data: ExperimentData) -> Table:
         if own.empty:
             rows.append([condition, "no slow level, no map", *[NONE] * (len(head) - 2)])
             continue
-        weights = [
-            number(float(own[f"rms_{top}_to_{below}_{when}"].median()))
-            for when in ("before", "after")
-        ]
+        block = own[[f"rms_{top}_to_{below}_{when}" for when in ("before", "after")]]
+        weights = [number(middle) for middle in block.median()]
         for segment, called in zip(SEGMENTS, ("first", "second"), strict=True):
             names = ("resultant_length", "within_45", *shares)
             columns = (own[f"{name}_{segment}"] for name in names)
-            cells = [with_interval(_over_seeds(column)) for column in columns]
-            rows.append([condition, called, *cells, *weights])
+            rows.append([condition, called, *map(_over_seeds, columns), *weights])
     return Table(head, rows)
 
 
@@ -109,24 +93,18 @@ def runs_table(runs: pd.DataFrame) -> Table:
     """Return how the runs of each condition ended, and how long they took."""
     rows = []
     for condition, own in runs.groupby("condition", sort=False):
-        count = own["status"].value_counts()
-        rows.append([
-            str(condition),
-            ", ".join(str(seed) for seed in own["seed"]),
-            ", ".join(f"{count[s]} {s}" for s in ("finished", "diverged", "unfinished")
-                      if s in count),
-            f"{number(float(own['seconds'].median()), 0)} s",
-        ])  # fmt: skip
+        count, seeds = own["status"].value_counts(), ", ".join(map(str, own["seed"]))
+        ends = [f"{count[s]} {s}" for s in ("finished", "diverged", "unfinished") if s in count]
+        duration = f"{number(float(own['seconds'].median()), 0)} s"
+        rows.append([str(condition), seeds, ", ".join(ends), duration])
     return Table(["condition", "seeds", "runs", "median duration"], rows)
 
 
 def failures_table(runs: pd.DataFrame) -> Table:
     """Return the runs that are not finished, with their reasons."""
-    failed = runs[runs["status"] != "finished"]
-    rows = [
-        [str(r.condition), str(r.seed), str(r.status), str(r.reason)] for r in failed.itertuples()
-    ]
-    return Table(["condition", "seed", "status", "reason"], rows)
+    head = ["condition", "seed", "status", "reason"]
+    failed = runs.loc[runs["status"] != "finished", head]
+    return Table(head, [[str(cell) for cell in row] for row in failed.itertuples(index=False)])
 
 
 def _achieved(rows: pd.DataFrame, outcome: Outcome) -> str:
@@ -137,5 +115,5 @@ def _achieved(rows: pd.DataFrame, outcome: Outcome) -> str:
     return f"{made} of {due} ({made / due:.0%})" if due else NONE
 
 
-def _over_seeds(values: "pd.Series[float]") -> Estimate:
-    return estimate(values.to_numpy(dtype=float))
+def _over_seeds(values: "pd.Series[float]") -> str:
+    return with_interval(estimate(values.to_numpy(dtype=float)))

@@ -17,12 +17,7 @@ CAP_RADIUS_CM = 3.5
 
 
 def paths(kept: Mapping[str, Mapping[str, ndarray]], data: ExperimentData) -> Figure:
-    """Draw shown and performed paths as the robot sees them, its right on the right.
-
-    Args:
-        kept: What was kept of the shown run of each condition.
-        data: The runs, for the task and how conditions look.
-    """
+    """Draw shown and performed paths of a run per condition, as the robot sees them."""
     task = data.task
     motions = [s.name for name in task.novel for s in task.lesson(name)]
     figure = Figure(figsize=(WIDTH, 0.7 + 1.22 * len(kept)))
@@ -31,8 +26,11 @@ def paths(kept: Mapping[str, Mapping[str, ndarray]], data: ExperimentData) -> Fi
         for axes, motion in zip(row, motions, strict=True):
             _places(axes, task)
             if f"shown.{motion}" in arrays:
-                _draw(axes, arrays[f"shown.{motion}"], arrays[f"performed.{motion}"],
-                      data.looks[condition].colour)  # fmt: skip
+                shown = _in_front(arrays[f"shown.{motion}"])
+                axes.plot(*shown, color=FAINT, linewidth=3.2, alpha=0.55, solid_capstyle="round")
+                right, up = _in_front(arrays[f"performed.{motion}"])
+                axes.plot(right, up, color=data.looks[condition].colour, linewidth=1.4)
+                axes.plot(right[0], up[0], marker="o", color=INK, markersize=3.5)
             axes.set_aspect("equal")
             axes.tick_params(labelsize=7.5, length=2)
         row[0].set_ylabel(f"{condition}\nheight [cm]")
@@ -42,21 +40,12 @@ def paths(kept: Mapping[str, Mapping[str, ndarray]], data: ExperimentData) -> Fi
     return figure
 
 
-def _draw(
-    axes: Axes, shown: Float[ndarray, "T 3"], performed: Float[ndarray, "T 3"], colour: str
-) -> None:
-    axes.plot(*_in_front(shown), color=FAINT, linewidth=3.2, alpha=0.55, solid_capstyle="round")
-    right, up = _in_front(performed)
-    axes.plot(right, up, color=colour, linewidth=1.4)
-    axes.plot(right[0], up[0], marker="o", color=INK, markersize=3.5)
-
-
 def _places(axes: Axes, task: Task) -> None:
     """Mark the places where something is to be brought about by a bar, as wide as a cap."""
     for place in dict.fromkeys(p.end for p in task.primitives if p.effect):
         right, up = _in_front(task.position(place)[None])
-        axes.plot([right[0] - CAP_RADIUS_CM, right[0] + CAP_RADIUS_CM], [up[0], up[0]],
-                  color=INK, linewidth=1.2)  # fmt: skip
+        ends = [right[0] - CAP_RADIUS_CM, right[0] + CAP_RADIUS_CM]
+        axes.plot(ends, [up[0], up[0]], color=INK, linewidth=1.2)
 
 
 def _in_front(path: Float[ndarray, "T 3"]) -> Float[ndarray, "2 T"]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from motionese.analysis.cells import listed
 from motionese.analysis.effects import effects
 from motionese.analysis.experiment_data import collect
-from motionese.analysis.figures import Shown, figures
+from motionese.analysis.figures import figures
 from motionese.analysis.map_numbers import map_numbers
 from motionese.analysis.mochizuki2013 import claims, has_its_design
 from motionese.analysis.page import page
@@ -21,12 +21,9 @@ from motionese.files import write_whole
 
 @dataclass(frozen=True)
 class Report:
-    """A report that was written.
+    """The page that was written, and how many ended runs it is about.
 
-    Attributes:
-        path: The page.
-        runs: How many ended runs it is about.
-        too_few: Why tests could not be made for want of seeds, or "".
+    `too_few` says why tests could not be made for want of seeds, or "".
     """
 
     path: Path
@@ -38,11 +35,8 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     """Write `report.html`, the tables and the figures of a run folder into it.
 
     Runs that diverged or have not ended are listed, not tested; with too few seeds for a test
-    everything else is written, and the report returned says so.
-
-    Args:
-        run_folder: The folder.
-        told: Called with a line about each step.
+    everything else is written, and the report returned says so. `told` is called with a line about
+    each step.
 
     Raises:
         RunFolderError: There is no ended run in it, a file in it is damaged, or it cannot be
@@ -58,24 +52,20 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     measures = measured(data, numbers)
     found = effects(measures, study.factors)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
-    tables = {
-        "loops": data.loops,
-        "development": data.development,
-        **data.novel,
-        "slow_state_map": data.slow_state_map,
-        "map_numbers": numbers,
-        "runs": data.runs,
-        "effects": found,
-        **({"claims": claims_table(results)} if results else {}),
-    }
+    tables = {"loops": data.loops, "development": data.development, **data.novel}
+    tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
+    tables |= {"runs": data.runs, "effects": found}
+    tables |= {"claims": claims_table(results)} if results else {}
     try:
         for name, table in tables.items():
             text = table.to_csv(index=False, lineterminator="\n")
             write_whole(run_folder / f"{name}.csv", text)
         drawn = []
+        (run_folder / "figures").mkdir(exist_ok=True)
         for each in figures(data, measures):
             tell(f"figure {each.name}")
-            _write_figure(run_folder / "figures", each)
+            write_whole(run_folder / "figures" / f"{each.name}.svg", each.drawing.svg)
+            write_whole(run_folder / "figures" / f"{each.name}.png", each.drawing.png)
             drawn.append(each)
         too_few = _too_few(measures, list(data.looks))
         path = run_folder / REPORT
@@ -86,12 +76,6 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
         ) from error
     tell(f"report {path}")
     return Report(path, ended, too_few)
-
-
-def _write_figure(folder: Path, shown: Shown) -> None:
-    folder.mkdir(exist_ok=True)
-    write_whole(folder / f"{shown.name}.svg", shown.drawing.svg)
-    write_whole(folder / f"{shown.name}.png", shown.drawing.png)
 
 
 def _too_few(measures: Measures, names: Sequence[str]) -> str:

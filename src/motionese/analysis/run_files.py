@@ -29,11 +29,7 @@ AGAIN = "the same `motionese reproduce` command writes the tables again from the
 
 
 def read_end(run: Run) -> dict[str, Any] | None:
-    """Return how a run ended, or None while it has not.
-
-    Raises:
-        RunFolderError: The file does not tell it.
-    """
+    """Return how a run ended, or None while it has not; `RunFolderError` if it does not tell."""
     end = run.ended()
     if end is None and not (run.folder / ENDED).is_file():
         return None
@@ -52,24 +48,21 @@ def read_end(run: Run) -> dict[str, Any] | None:
 def read_table(
     run: Run, name: str, columns: Sequence[str], rows: int | None, *, may_be_empty: bool
 ) -> pd.DataFrame:
-    """Read a table of a run.
+    """Read a table of a run; `RunFolderError` if it is missing, or not as it was written.
 
     Args:
-        run: The run.
         name: The table's name, such as "loops".
         columns: Columns that it must have.
         rows: How many rows were written; None where that is not known.
         may_be_empty: Whether a table of no rows, which has no columns either, is a right one.
-
-    Raises:
-        RunFolderError: It is missing, or not as it was written.
     """
     path = run.folder / f"{name}.csv"
     try:
         table = _parsed(path.read_bytes().decode(), may_be_empty=may_be_empty)
         if len(table):
             _check_columns(table, columns)
-            _check_own(table, run)
+            if not ((table["condition"] == run.condition.name) & (table["seed"] == run.seed)).all():
+                raise ValueError(f"rows of another run than {run.name}")
         if rows is not None and len(table) != rows:
             raise ValueError(f"{len(table)} rows of {rows}")
     except FileNotFoundError as error:
@@ -132,11 +125,6 @@ def _fits(column: str, values: "pd.Series[Any]") -> bool:
     if column == "trained":
         return values.dtype.kind == "b"
     return values.dtype.kind in ("i" if column in WHOLE_NUMBERS else "iuf")
-
-
-def _check_own(table: pd.DataFrame, run: Run) -> None:
-    if not ((table["condition"] == run.condition.name) & (table["seed"] == run.seed)).all():
-        raise ValueError(f"rows of another run than {run.name}")
 
 
 def _refusal(path: Path, what: str) -> RunFolderError:

@@ -25,8 +25,7 @@ class Measures:
         untrained_error: The same of those with a pair that was never taught.
         untrained_spread: Standard deviation [cm] of the latter over the sequences.
         resultant_length: Mean resultant length of the first segment's direction over the map.
-        slow_level_part: Share of the second segment's direction variance the top level takes part
-            in.
+        slow_level_part: Share of the variance of the second's that the top level takes part in.
     """
 
     error_at_end: dict[int, pd.DataFrame]
@@ -44,32 +43,25 @@ class Measures:
 
 
 def measured(data: ExperimentData, numbers: pd.DataFrame) -> Measures:
-    """Return the measures.
-
-    Args:
-        data: The runs.
-        numbers: A row per condition and seed on its map.
-    """
+    """Return the measures of runs, and of `numbers`, a row per condition and seed on its map."""
     names = [condition.name for condition in data.study.conditions]
+
+    def whole(table: pd.DataFrame) -> pd.DataFrame:
+        return table.reindex(columns=names)
+
     loops, new = data.loops, data.new_sequences
-    trained = new["trained"].astype(bool)
+    trained, error = new["trained"].astype(bool), "imitation_error_cm"
     below, _ = level_names(data.study)
     kept = numbers.assign(part=1 - numbers[f"share_{below}_2"])
-    stages = range(1, len(data.study.stages) + 1)
-    at_end = last_loops(loops)
+    stages, at_end = range(1, len(data.study.stages) + 1), last_loops(loops)
     return Measures(
-        error_at_end={n: error_at_end(loops, n).reindex(columns=names) for n in stages},
-        achieved={
-            outcome.title: achieved(at_end, outcome).reindex(columns=names)
-            for outcome in data.task.outcomes
-        },
-        trained_error=_by_seed(new[trained], "imitation_error_cm").reindex(columns=names),
-        untrained_error=_by_seed(new[~trained], "imitation_error_cm").reindex(columns=names),
-        untrained_spread=_by_seed(new[~trained], "imitation_error_cm", "std").reindex(
-            columns=names
-        ),
-        resultant_length=_by_seed(numbers, "resultant_length_1").reindex(columns=names),
-        slow_level_part=_by_seed(kept, "part").reindex(columns=names),
+        error_at_end={n: whole(error_at_end(loops, n)) for n in stages},
+        achieved={each.title: whole(achieved(at_end, each)) for each in data.task.outcomes},
+        trained_error=whole(_by_seed(new[trained], error)),
+        untrained_error=whole(_by_seed(new[~trained], error)),
+        untrained_spread=whole(_by_seed(new[~trained], error, "std")),
+        resultant_length=whole(_by_seed(numbers, "resultant_length_1")),
+        slow_level_part=whole(_by_seed(kept, "part")),
     )
 
 
@@ -86,12 +78,8 @@ def last_loops(loops: pd.DataFrame, stage: int | None = None) -> pd.DataFrame:
 
 def error_at_end(loops: pd.DataFrame, stage: int) -> pd.DataFrame:
     """Return the mean imitation error [cm] of each run's last loops up to the end of a stage."""
-    by_loop = (
-        last_loops(loops, stage)
-        .groupby(["condition", "seed", "loop"], as_index=False)[["imitation_error_cm"]]
-        .mean()
-    )
-    return _by_seed(by_loop, "imitation_error_cm")
+    by_loop = last_loops(loops, stage).groupby(["condition", "seed", "loop"], as_index=False)
+    return _by_seed(by_loop[["imitation_error_cm"]].mean(), "imitation_error_cm")
 
 
 def achieved(
@@ -99,10 +87,7 @@ def achieved(
 ) -> pd.DataFrame:
     """Return what was achieved in some rows: a share of what was due, or the mean.
 
-    Args:
-        rows: Rows of imitations.
-        outcome: The column, and what it is a share of.
-        index: What the result has a row for; columns are conditions.
+    The result has a row for each value of `index`, and a column per condition.
     """
     group = rows.groupby([*index, "condition"])
     if not outcome.of:

@@ -7,8 +7,7 @@ resampled from a fixed generator: the same data give the same numbers.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -25,8 +24,7 @@ FEWEST = 2
 """Seeds below which there is neither an interval nor a test."""
 
 
-@dataclass(frozen=True)
-class Estimate:
+class Estimate(NamedTuple):
     """A statistic over seeds with its bootstrap interval; NaN bounds where one seed is all."""
 
     value: float
@@ -35,17 +33,13 @@ class Estimate:
     seeds: int
 
 
-@dataclass(frozen=True)
-class Contrast:
+class Contrast(NamedTuple):
     """What paired differences say; differences are signed so that positive speaks for a claim.
 
     Attributes:
-        value: Their mean.
-        low: Lower end of its 95 % interval.
-        high: Upper end.
+        value: Their mean; `low` and `high` are the ends of its 95 % interval.
         p: Two-sided, of the sign-flip permutation test.
         effect: Cohen's d of paired differences, mean / standard deviation.
-        seeds: How many seeds.
     """
 
     value: float
@@ -71,7 +65,6 @@ def estimate(values: Float[ndarray, " n"], statistic: Callable[..., Any] = np.me
         n_resamples=RESAMPLES,
         confidence_level=1 - LEVEL,
         method="percentile",
-        vectorized=True,
         rng=np.random.default_rng(SEED),
     ).confidence_interval
     return Estimate(value, float(interval.low), float(interval.high), len(kept))
@@ -81,14 +74,8 @@ def contrast(differences: Float[ndarray, " n"], what: str) -> Contrast:
     """Test whether paired differences are other than 0 on average.
 
     The sign-flip permutation test assumes only that under no effect a difference is as likely as
-    its negative; it is exact up to twelve seeds. Fewer than six seeds cannot reach p ≤ 0.05.
-
-    Args:
-        differences: One per seed.
-        what: What is compared, for the error's sentence.
-
-    Raises:
-        TooFewSeedsError: There are fewer than two seeds.
+    its negative; it is exact up to twelve seeds. Fewer than six seeds cannot reach p ≤ 0.05;
+    fewer than two are a `TooFewSeedsError`, whose sentence says `what` is compared.
     """
     check_seeds(len(differences), what)
     mean = estimate(differences, np.mean)
@@ -97,13 +84,11 @@ def contrast(differences: Float[ndarray, " n"], what: str) -> Contrast:
         np.mean,
         permutation_type="samples",
         n_resamples=RESAMPLES,
-        vectorized=True,
         rng=np.random.default_rng(SEED),
     )
-    spread = float(differences.std(ddof=1))
-    effect = mean.value / spread if spread else math.copysign(math.inf, mean.value)
-    if not mean.value:
-        effect = 0.0
+    spread, effect = float(differences.std(ddof=1)), 0.0
+    if mean.value:
+        effect = mean.value / spread if spread else math.copysign(math.inf, mean.value)
     return Contrast(mean.value, mean.low, mean.high, float(test.pvalue), effect, mean.seeds)
 
 
@@ -121,8 +106,7 @@ def verdict(tested: Contrast | None, seeds: int = 0, parts: int = 1) -> str:
     A claim is decided only where the interval leaves out 0 and the test agrees.
 
     Args:
-        tested: The contrast, positive where it speaks for the claim; None if there is none.
-        seeds: How many seeds there were when there is no contrast.
+        tested: The contrast; None with fewer seeds than a test needs, which are then `seeds`.
         parts: How many contrasts the claim has, any of which may speak against it.
     """
     if tested is not None:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from motionese.experiment import conditions_of
 from motionese.figure_style import HUES, PAPER
@@ -28,12 +27,11 @@ class Look:
 
     def curve(self) -> dict[str, Any]:
         """Return the arguments that draw a curve in this look."""
-        filled = self.line == "-"
         return {
             "color": self.colour,
             "linestyle": self.line,
             "marker": self.marker,
-            "markerfacecolor": self.colour if filled else PAPER,
+            "markerfacecolor": self.colour if self.line == "-" else PAPER,
         }
 
 
@@ -58,16 +56,6 @@ def looks_of(factors: Mapping[str, tuple[str, ...]]) -> dict[str, Look]:
             shades[min(within, 1)], LINES[within % len(LINES)], MARKERS[place % len(MARKERS)]
         )
     return looks
-
-
-@dataclass(frozen=True)
-class Sketch:
-    """A figure with its name, the report's section it belongs to, and its caption."""
-
-    name: str
-    section: str
-    caption: str
-    figure: Figure
 
 
 def light_grid(axes: Axes) -> None:

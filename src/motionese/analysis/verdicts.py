@@ -6,8 +6,9 @@ part speaks against it: the more parts, the more easily one does so by chance, a
 the level is divided by their number (Bonferroni).
 """
 
-import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from math import inf, nan
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -18,16 +19,14 @@ from motionese.errors import TooFewSeedsError
 COLUMNS = ["claim", "measured", "statistic", "low", "high", "p", "effect", "seeds", "verdict"]
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """What is measured, and its difference by seed, positive where it speaks for the claim."""
 
     measured: str
     differences: "pd.Series[float]"
 
 
-@dataclass(frozen=True)
-class Claim:
+class Claim(NamedTuple):
     """A claim in plain words; `main` marks those of a paper itself."""
 
     text: str
@@ -35,16 +34,10 @@ class Claim:
     main: bool = False
 
 
-@dataclass(frozen=True)
-class Judgement:
-    """A claim with its weakest part and the verdict.
+class Judgement(NamedTuple):
+    """A claim with its verdict, and the weakest part, which decides it.
 
-    Attributes:
-        claim: The claim.
-        part: The part that decides it.
-        contrast: What the seeds say to that part; None with fewer than two of them.
-        seeds: How many seeds there were.
-        verdict: "holds", "does not hold" or "undecided with n seeds".
+    `contrast` is what the seeds say to that part; None with fewer than two of them.
     """
 
     claim: Claim
@@ -61,16 +54,14 @@ def judge(claim: Claim) -> Judgement:
 
 def judge_alone(differences: "pd.Series[float]") -> str:
     """Return the verdict on a difference by seed that is no part of a claim."""
-    part = Part("", differences)
-    return _judge_part(Claim("", (part,)), part).verdict
+    return judge(Claim("", (Part("", differences),))).verdict
 
 
-def claims_table(results: list[Judgement]) -> pd.DataFrame:
+def claims_table(results: Sequence[Judgement]) -> pd.DataFrame:
     """Return a row per claim."""
     rows = []
     for each in results:
-        c = each.contrast or Contrast(math.nan, math.nan, math.nan, math.nan, math.nan, each.seeds)
-        numbers = (c.value, c.low, c.high, c.p, c.effect, c.seeds)
+        numbers = each.contrast or Contrast(nan, nan, nan, nan, nan, each.seeds)
         rows.append([each.claim.text, each.part.measured, *numbers, each.verdict])
     return pd.DataFrame(rows, columns=COLUMNS)
 
@@ -86,6 +77,5 @@ def _judge_part(claim: Claim, part: Part) -> Judgement:
 
 
 def _strength(part: Judgement) -> tuple[int, float]:
-    rank = ("does not hold", "undecided", "holds")
-    place = next(i for i, word in enumerate(rank) if part.verdict.startswith(word))
-    return place, part.contrast.effect if part.contrast is not None else -math.inf
+    place = {"does not hold": 0, "holds": 2}.get(part.verdict, 1)
+    return place, part.contrast.effect if part.contrast else -inf

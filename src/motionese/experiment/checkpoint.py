@@ -13,8 +13,6 @@ class Checkpoint:
 
     Attributes:
         origin: Which run of which settings it belongs to.
-        loop: The loop that was finished.
-        learner: What the robot has become.
         rows: What was measured in this loop, a row per motion.
         development: What the network was after it.
         failure: Why the run must end here; empty if it goes on.
@@ -66,11 +64,9 @@ def read_checkpoints(folder: Path, origin: str) -> list[Checkpoint]:
     Raises:
         StorageError: One is missing before the last, or cannot be read.
     """
-    paths = sorted(
-        folder.glob("loop-*.safetensors"), key=lambda path: int(path.stem.removeprefix("loop-"))
-    )
-    expected = [checkpoint_path(folder, loop) for loop in range(1, len(paths) + 1)]
-    missing = [path for path in expected if path not in paths]
+    loops = len(list(folder.glob("loop-*.safetensors")))
+    paths = [checkpoint_path(folder, loop) for loop in range(1, loops + 1)]
+    missing = [path for path in paths if not path.exists()]
     if missing:
         raise StorageError(f"{missing[0]}: missing, though later loops are there")
     return [read_checkpoint(path, origin) for path in paths]

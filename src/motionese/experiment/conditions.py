@@ -9,11 +9,7 @@ from motionese.errors import SettingError, unknown
 
 @dataclass(frozen=True)
 class Condition:
-    """One cell of the design.
-
-    Attributes:
-        choices: The choice of every factor, in the factors' order, such as ('TD', 'MD').
-    """
+    """One cell of the design: the choice of every factor, in order, such as ('TD', 'MD')."""
 
     choices: tuple[str, ...]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from motionese.errors import RunFolderError
 from motionese.experiment.checkpoint import checkpoint_path, read_checkpoint
 from motionese.experiment.presets import study_of
-from motionese.experiment.run import Run
+from motionese.experiment.run import runs_in
 from motionese.experiment.run_folder import SETTINGS, run_demonstrations, run_settings
 from motionese.experiment.study import Study
 from motionese.imitation import Learner
@@ -14,13 +14,7 @@ from motionese.imitation import Learner
 
 @dataclass(frozen=True)
 class TrainedRobot:
-    """A robot, and what it was made with.
-
-    Attributes:
-        settings: All settings of its run.
-        seed: What everything random depends on.
-        learner: What it has become.
-    """
+    """What a robot has become, and the settings and seed of its run."""
 
     settings: Study
     seed: int
@@ -43,7 +37,7 @@ def robot_of(path: Path) -> TrainedRobot:
     whole = path.resolve()
     folder = next((p for p in (whole, *whole.parents[:3]) if (p / SETTINGS).is_file()), path)
     settings = study_of(run_settings(folder))
-    runs = _runs(folder, settings)
+    runs = [r for r in runs_in(folder, settings, run_demonstrations(folder)) if r.loops_done()]
     asked = str(whole.relative_to(folder.resolve())).strip(".")
     if asked:
         wanted = asked.replace("seed-", "").replace("/", "-").casefold()
@@ -54,15 +48,3 @@ def robot_of(path: Path) -> TrainedRobot:
     run = max(runs, key=lambda r: last[r].stat().st_mtime)
     checkpoint = read_checkpoint(last[run], run.origin(settings))
     return TrainedRobot(settings, run.seed, checkpoint.learner)
-
-
-def _runs(folder: Path, settings: Study) -> list[Run]:
-    """Return the runs that have finished a loop."""
-    shown = run_demonstrations(folder)
-    runs = [
-        Run(condition, int(place.name.removeprefix("seed-")), place, shown)
-        for condition in settings.conditions
-        for place in sorted((folder / condition.folder).glob("seed-*"))
-        if place.name.removeprefix("seed-").isdigit()
-    ]
-    return [run for run in runs if run.loops_done()]

@@ -5,7 +5,7 @@ import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from itertools import chain, islice
+from itertools import islice
 from multiprocessing import resource_tracker
 
 import dask
@@ -39,7 +39,6 @@ def go_through_all(
 
     Args:
         runs: The runs; those that are finished cost nothing.
-        settings: All settings.
         workers: How many runs at once, each in a process of its own.
         recordings: Demonstrations that are shown in the place of scripted ones.
         loop_done: Called with a run and its last whole loop, also when it begins.
@@ -55,21 +54,20 @@ def go_through_all(
     failures = []
     with _client(min(workers, len(left))) as client:
 
-        def begin() -> list[Future]:
-            """Hand the next run to a worker, if one is left."""
+        def begin(count: int) -> list[Future]:
             return [
                 client.submit(_go_through, run, settings, recordings, key=run.name, pure=False)
-                for run in islice(waiting, 1)
+                for run in islice(waiting, count)
             ]
 
         client.subscribe_topic(LOOPS, lambda event: loop_done(by_name[event[1][0]], event[1][1]))
-        going = as_completed(list(chain.from_iterable(begin() for _ in range(workers))))
+        going = as_completed(begin(workers))
         for future in going:
             run, failure = by_name[future.key], _failure(future)
             run_ended(run, failure)
             if failure:
                 failures.append(f"{run.name}: {failure}")
-            going.update(begin())
+            going.update(begin(1))
     return failures
 
 

@@ -4,11 +4,12 @@ A run is a function of settings, condition and seed. It writes a checkpoint afte
 that was stopped, or killed, goes on from its last whole loop and ends with the same bits.
 """
 
+import csv
 import hashlib
 import io
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +19,6 @@ from motionese.errors import StorageError
 from motionese.experiment.checkpoint import Checkpoint, read_checkpoints, write_checkpoint
 from motionese.experiment.conditions import Condition
 from motionese.experiment.study import Study
-from motionese.experiment.tables import write_table
 from motionese.files import write_whole
 from motionese.imitation import (
     LoopDone,
@@ -42,13 +42,9 @@ ENDED = "ended.json"
 
 @dataclass(frozen=True)
 class Run:
-    """A condition with a seed, the folder it is kept in, and whose demonstrations it is shown.
+    """A condition with a seed, and the folder it is kept in.
 
-    Attributes:
-        condition: The condition.
-        seed: The seed.
-        folder: The folder.
-        shown: A digest of recorded demonstrations; empty for the scripted caregiver.
+    `shown` is a digest of recorded demonstrations; empty for the scripted caregiver.
     """
 
     condition: Condition
@@ -87,6 +83,19 @@ class Run:
         return ended
 
 
+def runs_in(folder: Path, settings: Study, shown: str = "") -> list[Run]:
+    """Return the runs that lie in a run folder, in the order of conditions and seeds."""
+    return [
+        Run(condition, seed, path, shown)
+        for condition in settings.conditions
+        for seed, path in sorted(
+            (int(path.name.removeprefix("seed-")), path)
+            for path in (folder / condition.folder).glob("seed-*")
+            if path.is_dir() and path.name.removeprefix("seed-").isdecimal()
+        )
+    ]
+
+
 def go_through(
     run: Run,
     settings: Study,
@@ -96,8 +105,6 @@ def go_through(
     """Do what is left of a run, and return how it ended.
 
     Args:
-        run: The run.
-        settings: All settings.
         loop_done: Called after every loop with its number.
         recordings: Demonstrations that are shown in the place of scripted ones.
 
@@ -143,14 +150,9 @@ def _loop(
     known = {k: v for k, v in before.development.items() if k in opened} if before else {}
     acting = scene.settings.imitation
     earlier = {s.name for each in stages[:number] for s in each.lesson}
-    learner, rows, grown, status = imitation_loop(
-        scene,
-        learner,
-        stage,
-        loop,
-        acting.memory * max(len(each.lesson) for each in stages),
-        earlier if acting.rehearsal else (),
-    )
+    memory = acting.memory * max(len(each.lesson) for each in stages)
+    rehearsed = earlier if acting.rehearsal else ()
+    learner, rows, grown, status = imitation_loop(scene, learner, stage, loop, memory, rehearsed)
     return Checkpoint(
         origin=origin,
         loop=loop,
@@ -192,3 +194,13 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
     }
     write_whole(run.folder / ENDED, json.dumps(ended, indent=1))
     return ended
+
+
+def write_table(path: Path, rows: Sequence[Row]) -> None:
+    """Write rows as CSV; the columns are those of all rows, in the order they first appear."""
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    write_whole(path, text.getvalue())

@@ -35,10 +35,8 @@ class RunFolder:
     """A run folder that this process may write to.
 
     Attributes:
-        path: Where it is.
         changed: What it was made with before and is not now, each as 'name: was → now'.
-        shown: A digest of the recorded demonstrations of all its runs; empty for the scripted
-            caregiver.
+        shown: A digest of the recorded demonstrations of all its runs; empty if scripted.
     """
 
     path: Path
@@ -60,8 +58,7 @@ def open_run_folder(
         path: The folder; it may be missing or empty.
         settings: The settings of all its runs.
         preset: What the settings were made from, for the record.
-        shown: A digest of the recorded demonstrations of all its runs; empty for the scripted
-            caregiver.
+        shown: A digest of the recorded demonstrations of all its runs; empty if scripted.
 
     Raises:
         RunFolderError: It is in use, not ours, of other settings, or cannot be written to.
@@ -80,8 +77,15 @@ def _begun(path: Path, settings: Study, preset: str, shown: str) -> RunFolder:
     """Write what stands beside the runs, or check that it is the same."""
     now = settings.model_dump(mode="json")
     if (path / SETTINGS).exists():
-        _check_same(path, run_settings(path), now)
-        _check_same_shown(path, shown)
+        if changes := differences(run_settings(path), now):
+            raise RunFolderError(
+                f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
+            )
+        if (before := run_demonstrations(path)) != shown:
+            raise RunFolderError(
+                f"{path} holds runs that were shown other demonstrations "
+                f"({before or 'scripted'} → {shown or 'scripted'}); choose another --out"
+            )
         # What a killed process had not finished writing.
         for part in path.rglob(".*.part"):
             part.unlink()
@@ -137,23 +141,6 @@ def _check_ours(path: Path) -> None:
     if SETTINGS not in names and foreign:
         raise RunFolderError(
             f"{path} is not empty and no run folder (it has no {SETTINGS}); choose another"
-        )
-
-
-def _check_same(path: Path, was: Facts, now: Facts) -> None:
-    changes = differences(was, now)
-    if changes:
-        raise RunFolderError(
-            f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
-        )
-
-
-def _check_same_shown(path: Path, shown: str) -> None:
-    before = run_demonstrations(path)
-    if before != shown:
-        raise RunFolderError(
-            f"{path} holds runs that were shown other demonstrations "
-            f"({before or 'scripted'} → {shown or 'scripted'}); choose another --out"
         )
 
 

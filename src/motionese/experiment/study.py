@@ -23,7 +23,6 @@ class StageSettings(Group):
         lesson: A lesson of the task, or sequences such as "UR ↓↑" or "PUSH(R)+RAISE(R)".
         levels: The open levels of the network, from io upwards.
         caregiver: How the caregiver moves where that differs from `[caregiver]`.
-        until: When the stage ends.
     """
 
     lesson: Lesson | dict[str, Lesson]
@@ -35,9 +34,7 @@ class StageSettings(Group):
 class Study(Settings):
     """All settings of a study; presets explain each where they give its value.
 
-    Attributes:
-        factors: What is varied, each with its choices; conditions are their combinations.
-        stages: The stages of development, one after the other.
+    `factors` are what is varied, each with its choices; conditions are their combinations.
     """
 
     factors: dict[str, tuple[Name, ...]]
@@ -85,14 +82,9 @@ class Study(Settings):
                     f"{condition.name}: a network grows, and keeps what it has"
                 )
             opened = levels
-            stages.append(
-                Stage(
-                    lesson=self._lesson(task, number, self._chosen(stage.lesson, condition)),
-                    levels=levels,
-                    manner=self._manner(number, self._chosen(stage.caregiver, condition)),
-                    until=stage.until,
-                )
-            )
+            lesson = self._lesson(task, number, self._chosen(stage.lesson, condition))
+            manner = self._manner(number, self._chosen(stage.caregiver, condition))
+            stages.append(Stage(lesson=lesson, levels=levels, manner=manner, until=stage.until))
         return tuple(stages)
 
     def most_loops(self) -> int:

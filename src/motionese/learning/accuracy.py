@@ -17,11 +17,7 @@ def predicted(
 ) -> Float[ndarray, "S T D"]:
     """Predict every row of a batch in the unit interval, from the initial states and row 0 on.
 
-    Args:
-        network: The network.
-        batch: The motions.
-        initial: Initial states of every motion.
-        teacher_forcing: 0 in closed loop, 1 with what was sensed as the input of every step.
+    `teacher_forcing` is 0 in closed loop, 1 with what was sensed as the input of every step.
     """
     share = jnp.asarray(teacher_forcing, network.weights.dtype)
     return np.asarray(_predicted(network, batch, jnp.asarray(initial), share))
@@ -37,9 +33,8 @@ def errors_of(
 ) -> Float[ndarray, "S D"]:
     """Return every motion's root mean squared error in the units of the network's channels."""
     assert network.channels is not None, "a network that is trained carries channels"
-    return channel_errors(
-        predicted(network, batch, initial, teacher_forcing), batch, network.channels
-    )
+    rows = predicted(network, batch, initial, teacher_forcing)
+    return channel_errors(rows, batch, network.channels)
 
 
 def channel_errors(

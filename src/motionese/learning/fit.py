@@ -19,7 +19,6 @@ class Fit:
     Attributes:
         network: The trained network; it carries the motions' channels.
         initial_states: u_0 of every motion, all levels; IO as the first row was sensed. [S, N]
-        names: The motions' names.
         lengths: The motions' rows.
         rate_hz: Rows per second [Hz].
         losses: Equation (3) per epoch, summed over motions, before that epoch's update. [E]
@@ -29,7 +28,6 @@ class Fit:
             the input of every step, each channel in its unit. [S, D]
         closed_loop_error: Root mean squared error of every motion in closed loop, each channel in
             its unit. [S, D]
-        validation_names: The held-out motions' names.
         validation_error: `closed_loop_error` of the held-out motions, recognised from all that
             was observed of them. [H, D]
         status: How training ended.

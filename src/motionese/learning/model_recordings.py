@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError
@@ -33,9 +34,7 @@ def read_for(
         fit: The model.
         path: The file or folder.
         needed: Channels that must be there; all where left out.
-        format: As `Motions.read` takes it.
-        episode: As `Motions.read` takes it.
-        time: As `Motions.read` takes it.
+        format: As `Motions.read` takes it; so are `episode` and `time`.
         choice: What else `Motions.read` takes; ranges are the model's.
 
     Raises:
@@ -49,7 +48,19 @@ def read_for(
     taken = {"channels": wish.channels or found.channels, "exclude": wish.exclude}
     present = chosen(found, choose(**taken)).channels
     own = tuple(name for name in present if name in channels.names)
-    _check_channels(path, channels, own, channels.names if needed is None else needed)
+    needed = channels.names if needed is None else needed
+    missing = [name for name in needed if name not in own]
+    if missing:
+        raise ChannelError(
+            f"{path}: the model's channel '{missing[0]}' is missing; "
+            f"the model needs {', '.join(needed)}, here are {', '.join(own) or 'none of them'}"
+        )
+    order = tuple(name for name in channels.names if name in own)
+    if own != order:
+        raise ChannelError(
+            f"{path}: its channels stand in another order than the model's: "
+            f"{', '.join(own)}; name them in the model's: --channels {','.join(order)}"
+        )
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
     ready = prepare(found, choose(**{**choice, "channels": own, "exclude": (), "ranges": ranges}))
     motions = Motions.from_recording(ready)
@@ -61,33 +72,15 @@ def read_for(
     return _widened(motions, channels)
 
 
-def _check_channels(
-    path: str | Path, channels: Channels, present: Sequence[str], needed: Sequence[str]
-) -> None:
-    missing = [name for name in needed if name not in present]
-    if missing:
-        raise ChannelError(
-            f"{path}: the model's channel '{missing[0]}' is missing; "
-            f"the model needs {', '.join(needed)}, here are {', '.join(present) or 'none of them'}"
-        )
-    order = [name for name in channels.names if name in present]
-    if list(present) != order:
-        raise ChannelError(
-            f"{path}: its channels stand in another order than the model's: "
-            f"{', '.join(present)}; name them in the model's: --channels {','.join(order)}"
-        )
-
-
 def _widened(motions: Motions, channels: Channels) -> Motions:
     """Return the motions over all channels of the model, those that are missing not observed."""
     columns = channels.indices(motions.channels.names)
-    values, masks = [], []
-    for value, mask in zip(motions.values, motions.observed, strict=True):
-        whole = np.zeros((len(value), len(channels)))
-        seen = np.zeros(whole.shape, dtype=bool)
-        whole[:, columns], seen[:, columns] = value, mask
-        values.append(whole)
-        masks.append(seen)
-    return Motions.from_arrays(
-        values, channels, motions.rate_hz, observed=masks, names=motions.names
-    )
+
+    def widened(part: ndarray) -> ndarray:
+        whole = np.zeros((len(part), len(channels)), part.dtype)
+        whole[:, columns] = part
+        return whole
+
+    values, masks = (list(map(widened, each)) for each in (motions.values, motions.observed))
+    rate, names = motions.rate_hz, motions.names
+    return Motions.from_arrays(values, channels, rate, observed=masks, names=names)

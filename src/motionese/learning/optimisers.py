@@ -1,7 +1,6 @@
 """Update rules of training and recognition, from optax."""
 
 from functools import lru_cache
-from typing import NamedTuple
 
 import optax
 
@@ -12,17 +11,6 @@ SLOWER, SLOWER_FROM = 0.3, 0.7
 """Recognition's rate is multiplied by the first after this share of its iterations."""
 WARM_UP, BEGIN, END = 0.05, 0.1, 0.01
 """The cosine schedule rises over this share of the epochs; its first and last rate, as shares."""
-
-
-class _Rule(NamedTuple):
-    """Those settings of training that the update rule is made of."""
-
-    optimiser: Optimiser
-    weight_rate: float
-    initial_rate: float
-    schedule: Schedule
-    momentum: float
-    clip: float
 
 
 def update_rule(
@@ -44,19 +32,21 @@ def _schedule(name: Schedule, rate: float, epochs: int) -> float | optax.Schedul
 
 @lru_cache(maxsize=64)
 def _training_rule(
-    settings: _Rule, epochs: int, learned: tuple[str, ...]
+    learned: tuple[str, ...],
+    epochs: int,
+    optimiser: Optimiser,
+    schedule: Schedule,
+    momentum: float,
+    clip: float,
+    **rates: float,
 ) -> optax.GradientTransformation:
-    rates = {name: PARAMETERS[name].rate for name in learned}
+    rate_of = {name: PARAMETERS[name].rate for name in learned}
     by_rate = {
-        rate: update_rule(
-            settings.optimiser,
-            _schedule(settings.schedule, getattr(settings, rate), epochs),
-            settings.momentum,
-        )
-        for rate in dict.fromkeys(rates.values())
+        rate: update_rule(optimiser, _schedule(schedule, rates[rate], epochs), momentum)
+        for rate in dict.fromkeys(rate_of.values())
     }
-    clip = [optax.clip_by_global_norm(settings.clip)] if settings.clip else []
-    return optax.chain(*clip, optax.multi_transform(by_rate, rates))
+    clipped = [optax.clip_by_global_norm(clip)] if clip else []
+    return optax.chain(*clipped, optax.multi_transform(by_rate, rate_of))
 
 
 def training_rule(settings: Training, learned: tuple[str, ...]) -> optax.GradientTransformation:
@@ -64,8 +54,9 @@ def training_rule(settings: Training, learned: tuple[str, ...]) -> optax.Gradien
 
     Equal settings give the same object, so that compiled code is found again.
     """
-    rule = _Rule(**{name: getattr(settings, name) for name in _Rule._fields})
-    return _training_rule(rule, settings.epochs if settings.schedule == "cosine" else 0, learned)
+    epochs = settings.epochs if settings.schedule == "cosine" else 0
+    own = {"optimiser", "schedule", "momentum", "clip", "weight_rate", "initial_rate"}
+    return _training_rule(learned, epochs, **settings.model_dump(include=own))
 
 
 @lru_cache(maxsize=64)

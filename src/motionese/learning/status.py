@@ -38,8 +38,7 @@ class Progress(NamedTuple):
         epoch: Epochs done.
         loss: Equation (3) before the last update.
         closed_loop_error: Root mean squared error in closed loop, as a share of range.
-        validation_loss: Of the held-out motions; None without any.
-        validation_error: `closed_loop_error` of the held-out motions; None without any.
+        validation_loss: Of the held-out motions, as `validation_error` is; None without any.
     """
 
     epoch: int

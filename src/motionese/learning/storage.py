@@ -21,6 +21,7 @@ ARRAYS = (
     "closed_loop_error",
     "validation_error",
 )
+TOLD = ("names", "lengths", "rate_hz", "validation_names")
 FURTHER = "further"
 """The fact, and the beginning of the arrays' names, that hold what is written with a fit."""
 
@@ -55,32 +56,18 @@ def write_fit(
     """Write a fit and what belongs to it to one safetensors file, whole or not at all.
 
     Whatever reads a fit reads such a file. A fit of no motions can be written: the network of a
-    robot that has not learned any yet.
-
-    Args:
-        path: The file.
-        fit: The fit.
-        arrays: Further arrays, by names of their own.
-        facts: Further facts, as JSON can hold them, by names of their own.
+    robot that has not learned any yet. Further arrays, and facts as JSON can hold them, have names
+    of their own.
     """
-    own = {
-        "names": list(fit.names),
-        "lengths": list(fit.lengths),
-        "rate_hz": fit.rate_hz,
-        "validation_names": list(fit.validation_names),
-        "status": fit.status.ending.value,
-        "sentence": fit.status.sentence,
-    }
+    own = {name: getattr(fit, name) for name in TOLD}
+    own |= {"status": fit.status.ending.value, "sentence": fit.status.sentence}
     tensors = {name: np.asarray(getattr(fit, name)) for name in ARRAYS}
     tensors |= {f"{FURTHER}.{name}": value for name, value in arrays.items()}
     write_network(Path(path), fit.network, tensors, {**own, FURTHER: dict(facts)} if facts else own)
 
 
 def read_fit(path: str | Path) -> tuple[Fit, dict[str, ndarray], dict[str, Any]]:
-    """Read what `write_fit` wrote.
-
-    Returns:
-        The fit, the further arrays, the further facts.
+    """Return a fit, the further arrays and the further facts, as `write_fit` wrote them.
 
     Raises:
         StorageError: The file is not a fit, or cut short.
@@ -102,32 +89,26 @@ def read_fit(path: str | Path) -> tuple[Fit, dict[str, ndarray], dict[str, Any]]
     if facts.status not in endings:
         raise StorageError(f"{path}: {unknown('status', facts.status, endings)}")
     _check_shapes(Path(path), network, arrays, facts)
-    fit = Fit(
-        network=network,
-        names=facts.names,
-        lengths=facts.lengths,
-        rate_hz=facts.rate_hz,
-        validation_names=facts.validation_names,
-        status=Status(Ending(facts.status), facts.sentence),
-        **{name: arrays[name] for name in ARRAYS},
-    )
+    status = Status(Ending(facts.status), facts.sentence)
+    held: dict[str, Any] = {name: getattr(facts, name) for name in TOLD}
+    held |= {name: arrays[name] for name in ARRAYS}
     prefix = f"{FURTHER}."
     further = {n.removeprefix(prefix): a for n, a in arrays.items() if n.startswith(prefix)}
-    return fit, further, facts.further
+    return Fit(network=network, status=status, **held), further, facts.further
 
 
 def _check_shapes(path: Path, network: MTRNN, arrays: Mapping[str, ndarray], facts: _Facts) -> None:
-    """Refuse arrays that do not belong to so many motions over so many channels."""
     learned, held_out = len(facts.names), len(facts.validation_names)
     shapes = {
         "initial_states": (learned, network.size),
         "teacher_forced_error": (learned, network.io_size),
         "closed_loop_error": (learned, network.io_size),
         "validation_error": (held_out, network.io_size),
+        "lengths": (learned,),
     }
-    got = {name: arrays[name].shape for name in shapes} | {"lengths": (len(facts.lengths),)}
-    for name, shape in {**shapes, "lengths": (learned,)}.items():
-        if got[name] != shape:
-            raise StorageError(f"{path}: {name} must have shape {shape}, got {got[name]}")
+    for name, shape in shapes.items():
+        got = np.shape(facts.lengths if name == "lengths" else arrays[name])
+        if got != shape:
+            raise StorageError(f"{path}: {name} must have shape {shape}, got {got}")
     if not np.isfinite(arrays["initial_states"]).all():
         raise StorageError(f"{path}: initial_states must be finite")

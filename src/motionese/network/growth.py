@@ -25,20 +25,16 @@ def grow(
 
     Args:
         network: The network as learned so far.
-        level: The new level.
+        level: The new level; its units are the grown network's last.
         key: JAX random key of the new weights.
         influence: Gain of the new level on the level below: its weights there are multiplied by
             it. With 0 the grown network computes the same bits as before, and still learns,
             because the weights' gradient depends on the new level's activity, not on the weights.
-        gain: Gain of the initial weights, as for a network drawn whole.
-        scale: Scale of the initial weights, as for a network drawn whole.
-
-    Returns:
-        The grown network, its new units last.
+        gain: Gain of the initial weights, as for a network drawn whole; so is `scale`.
     """
     if not (math.isfinite(influence) and influence >= 0):
         raise SettingError(f"the influence of a new level must be ≥ 0, got {influence}")
-    old, sizes = network.size, (*network.sizes, level.size)
+    old, sizes, read_out = network.size, (*network.sizes, level.size), network.variance_weights
     opened = named([*network.levels, level])[-1]
     drawn = draw_weights(sizes, gain, scale, key, kept=len(network.sizes))
     drawn = drawn.at[:old, old:].multiply(influence)
@@ -49,7 +45,5 @@ def grow(
         weights=drawn.at[:old, :old].set(network.weights),
         bias=jnp.pad(network.bias, (0, level.size)),
         tau=jnp.append(network.tau, jnp.asarray(opened.taus, network.tau.dtype)),
-        variance_weights=network.variance_weights
-        if network.variance_weights is None
-        else jnp.pad(network.variance_weights, ((0, 0), (0, level.size))),
+        variance_weights=None if read_out is None else jnp.pad(read_out, ((0, 0), (0, level.size))),
     )

@@ -108,9 +108,7 @@ class MTRNN(eqx.Module):
             key: JAX random key of the initial weights.
             gain: Gain of the initial weights, see `wiring.weight_scales`.
             scale: One scale per block by its fan-in, or one for all.
-            learned_bias: Whether training moves the bias.
-            initial_io: What the IO units' potentials start from.
-            channels: What the IO units stand for, one channel each.
+            learned_bias: As the field; so are `initial_io` and `channels`.
             variance: Whether the network predicts the variance of every channel as well, see
                 `predict`; its read-out begins without any influence of the context.
         """
@@ -119,7 +117,12 @@ class MTRNN(eqx.Module):
         levels = named(levels)
         sizes = tuple(level.size for level in levels)
         weights = draw_weights(sizes, gain, scale, key)
-        drawn = cls(
+        read_out: dict[str, Any] = {}
+        if variance:
+            shape, log_variance = (sizes[0], sum(sizes[1:])), 2 * math.log(FIRST_DEVIATION)
+            read_out["variance_weights"] = jnp.zeros(shape, weights.dtype)
+            read_out["variance_bias"] = jnp.full(sizes[0], log_variance, weights.dtype)
+        return cls(
             weights=weights,
             bias=jnp.zeros(sum(sizes), weights.dtype),
             tau=jnp.asarray([tau for level in levels for tau in level.taus], weights.dtype),
@@ -128,13 +131,7 @@ class MTRNN(eqx.Module):
             channels=channels,
             learned_bias=learned_bias,
             initial_io=initial_io,
-        )
-        if not variance:
-            return drawn
-        return replace(
-            drawn,
-            variance_weights=jnp.zeros((sizes[0], sum(sizes[1:])), weights.dtype),
-            variance_bias=jnp.full(sizes[0], 2 * math.log(FIRST_DEVIATION), weights.dtype),
+            **read_out,
         )
 
     @property
@@ -184,12 +181,7 @@ class MTRNN(eqx.Module):
         return self.weights * jnp.asarray(wiring(self.sizes), self.weights.dtype)
 
     def per_unit(self, values: float | Mapping[str, float], other: float) -> Float[Array, " N"]:
-        """Spread values over the units.
-
-        Args:
-            values: One value for all context levels, or values by level name.
-            other: The value of IO, and of levels that are not named.
-        """
+        """Spread one value over all context units, or values by level; elsewhere `other`."""
         spread = jnp.full(self.size, other, self.weights.dtype)
         if not isinstance(values, Mapping):
             return spread.at[self.io_size :].set(values)

@@ -50,15 +50,11 @@ def read_out(network: MTRNN, potentials: Float[Array, "*rows N"]) -> Prediction:
 
 
 def variance_of(network: MTRNN, context: Float[Array, "*rows C"]) -> Float[Array, "*rows D"]:
-    """Return the variance that a network with a read-out of it predicts.
+    """Return the variance that a network predicts, from y of its context units.
 
     It is read out of the context units, as in a stochastic continuous-time recurrent network
     (S-CTRNN: Murata, Namikawa, Arie, Sugano & Tani 2013), and is never fed back:
     v = exp(R y_context + r) + `LEAST_VARIANCE`.
-
-    Args:
-        network: The network.
-        context: y of the context units.
     """
     weights, bias = network.variance_weights, network.variance_bias
     assert weights is not None and bias is not None, "asked of networks that predict variances"

@@ -38,33 +38,25 @@ def rollout(
     share: Float[Array, "B T D"],
     noise: Float[Array, "B T N"] | None = None,
 ) -> Float[Array, "B T N"]:
-    """Return the potentials u of a batch of sequences; `jax.nn.sigmoid` of them is y.
+    """Return the potentials u_0 … u_{T−1} of a batch of sequences; `jax.nn.sigmoid` of them is y.
 
     `y[:, t, :D]` is the prediction of row t, made from rows before t. (Equation (3) labels a
     prediction by the step it is made at, we by the step it is about.)
 
     Args:
-        network: The network.
         initial: Potentials at t = 0, all levels.
         sensed: Sensed values in the unit interval; what `share` never takes may be anything finite.
         share: How much of an input is sensed and how much the network's own prediction, from 1
             (teacher forcing) to 0 (closed loop), per channel and step. The last row is not used.
         noise: Added to the potentials, row t to u_t; the first row is not used.
-
-    Returns:
-        Potentials u_0 … u_{T−1}.
     """
     weights, bias, tau = widened(network)
     idle = tau.size - network.size
-    potentials = _rollout(
-        weights,
-        bias,
-        tau,
-        jnp.pad(initial, ((0, 0), (0, idle))),
-        jnp.swapaxes(sensed, 0, 1),
-        jnp.swapaxes(share, 0, 1),
-        None if noise is None else jnp.pad(jnp.swapaxes(noise, 0, 1), ((0, 0), (0, 0), (0, idle))),
-    )
+    widen = [(0, 0), (0, idle)]
+    if noise is not None:
+        noise = jnp.pad(jnp.swapaxes(noise, 0, 1), [(0, 0), *widen])
+    by_time = (jnp.swapaxes(sensed, 0, 1), jnp.swapaxes(share, 0, 1), noise)
+    potentials = _rollout(weights, bias, tau, jnp.pad(initial, widen), *by_time)
     return jnp.swapaxes(potentials[..., : network.size], 0, 1)
 
 

@@ -29,7 +29,6 @@ def step(
     """Return the potentials one step later, to the bits of a compiled rollout of two rows.
 
     Args:
-        network: The network.
         potentials: u of all units, of one state or of a batch.
         sensed: What is sensed now, in the unit interval; anything finite where `share` is 0.
         share: How much of an input is sensed, the rest being the network's own prediction: one

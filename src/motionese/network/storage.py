@@ -27,18 +27,11 @@ class _Level(BaseModel):
     name: str
 
 
-class _Channel(BaseModel):
-    name: str
-    unit: str
-    low: float
-    high: float
-
-
 class _Description(BaseModel):
     """What a model's file tells beside its arrays."""
 
     levels: tuple[_Level, ...]
-    channels: tuple[_Channel, ...] | None
+    channels: tuple[Channel, ...] | None
     learned_bias: bool
     initial_io: InitialIO
     facts: Mapping[str, Any]
@@ -51,9 +44,7 @@ def write_network(
     structure = {
         "format": FORMAT,
         "version": VERSION,
-        "levels": [
-            {"name": level.name, "size": level.size, "tau": level.tau} for level in network.levels
-        ],
+        "levels": [{"name": v.name, "size": v.size, "tau": v.tau} for v in network.levels],
         "channels": None if network.channels is None else [vars(c) for c in network.channels],
         "learned_bias": network.learned_bias,
         "initial_io": network.initial_io,
@@ -78,19 +69,16 @@ def read_network(path: Path) -> tuple[MTRNN, dict[str, ndarray], dict[str, Any]]
     try:
         told = _Description(**structure)
         sizes = tuple(level.size for level in told.levels)
-        expected = shapes(sizes, "variance_weights" in tensors)
-        for name, shape in expected.items():
-            _check_tensor(path, name, tensors.get(name), shape)
-        own: dict[str, Any] = {name: tensors.pop(name) for name in expected}
+        own: dict[str, Any] = {}
+        for name, shape in shapes(sizes, "variance_weights" in tensors).items():
+            own[name] = _checked(path, name, tensors.pop(name, None), shape)
         network = MTRNN(
             **own,
             names=tuple(level.name for level in told.levels),
             sizes=sizes,
             learned_bias=told.learned_bias,
             initial_io=told.initial_io,
-            channels=None
-            if told.channels is None
-            else Channels(Channel(**vars(c)) for c in told.channels),
+            channels=None if told.channels is None else Channels(told.channels),
         )
     except StorageError:
         raise
@@ -121,7 +109,7 @@ def _contents(path: Path) -> tuple[dict[str, Any], dict[str, ndarray]]:
     return structure, tensors
 
 
-def _check_tensor(path: Path, name: str, value: ndarray | None, shape: tuple[int, ...]) -> None:
+def _checked(path: Path, name: str, value: ndarray | None, shape: tuple[int, ...]) -> ndarray:
     if value is None or value.shape != shape:
         got = "nothing" if value is None else f"shape {value.shape}"
         raise StorageError(f"{path}: {name} must have shape {shape}, got {got}")
@@ -131,3 +119,4 @@ def _check_tensor(path: Path, name: str, value: ndarray | None, shape: tuple[int
         raise StorageError(f"{path}: tau must be ≥ 1 step, got {float(value.min()):g}")
     if not math.prod(shape):
         raise StorageError(f"{path}: {name} is empty")
+    return value

@@ -36,10 +36,8 @@ def weight_scales(sizes: tuple[int, ...], gain: float, scale: Scale) -> Float[nd
     """
     if scale not in get_args(Scale):
         raise SettingError(unknown("scale of the initial weights", scale, get_args(Scale)))
-    if scale == "fan_in":
-        senders = np.repeat(np.asarray(sizes, dtype=np.float64), sizes)
-    else:
-        senders = np.full(sum(sizes), float(max(sizes)))
+    counted = sizes if scale == "fan_in" else (max(sizes),) * len(sizes)
+    senders = np.repeat(np.asarray(counted, dtype=np.float64), sizes)
     return np.asarray(wiring(sizes) * gain / np.sqrt(senders)[None, :])
 
 

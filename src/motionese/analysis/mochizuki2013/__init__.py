@@ -21,12 +21,4 @@ def has_its_design(study: Study) -> bool:
     )
 
 
-__all__ = [
-    "CONVERGED_CM",
-    "QUESTION",
-    "SAME",
-    "answer",
-    "claims",
-    "departures",
-    "has_its_design",
-]
+__all__ = ["CONVERGED_CM", "QUESTION", "SAME", "answer", "claims", "departures", "has_its_design"]

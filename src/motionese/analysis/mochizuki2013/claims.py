@@ -17,6 +17,8 @@ CONVERGED_CM = 3.5
 SAME = 0.95
 """Directions are the same over a map from this mean resultant length on (spread of 18°)."""
 NAMES = TD_MD, TD_MND, TND_MD, TND_MND = "TD/MD", "TD/MND", "TND/MD", "TND/MND"
+OTHERS = NAMES[1:]
+"""All but TD/MD."""
 
 
 def claims(measures: Measures) -> list[Claim]:
@@ -48,28 +50,20 @@ def _new_motions(measures: Measures) -> list[Claim]:
     what, spreading = "error on untrained triples [cm]", "spread over untrained triples [cm]"
     matched, mismatched = (TD_MD, TND_MND), (TD_MND, TND_MD)
     pairs = [_difference(errors, b, a, what) for a in matched for b in mismatched]
-    others = [name for name in NAMES if name != TD_MD]
-    best = [_difference(errors, name, TD_MD, what) for name in others]
-    narrow = [_difference(spread, name, TD_MD, spreading) for name in others]
-    td = (errors[TD_MD] + errors[TD_MND]) / 2
-    tnd = (errors[TND_MD] + errors[TND_MND]) / 2
-    md = (errors[TD_MD] + errors[TND_MD]) / 2
-    mnd = (errors[TD_MND] + errors[TND_MND]) / 2
+    best = [_difference(errors, name, TD_MD, what) for name in OTHERS]
+    narrow = [_difference(spread, name, TD_MD, spreading) for name in OTHERS]
+    td, tnd = ((errors[f"{each}/MD"] + errors[f"{each}/MND"]) / 2 for each in ("TD", "TND"))
+    md, mnd = ((errors[f"TD/{each}"] + errors[f"TND/{each}"]) / 2 for each in ("MD", "MND"))
     crossed = ((errors[TD_MND] + errors[TND_MD]) - (errors[TD_MD] + errors[TND_MND])) / 2
+    better = f"(b) On untrained triples {TD_MD} and {TND_MND} are better than the other two"
+    match = f"(b) It helps when teaching and network match: {TD_MD}, {TND_MND} (interaction)"
     return [
-        Claim(
-            f"(b) On untrained triples {TD_MD} and {TND_MND} are better than the other two",
-            tuple(pairs),
-            main=True,
-        ),
+        Claim(better, tuple(pairs), main=True),
         Claim(f"(b) On untrained triples {TD_MD} is the best of all", tuple(best), main=True),
         Claim(f"(b) The errors of {TD_MD} vary least", tuple(narrow), main=True),
         Claim("(b) Teaching in phases (TD) helps", (Part(f"TND − TD, {what}", tnd - td),)),
         Claim("(b) A growing network (MD) helps", (Part(f"MND − MD, {what}", mnd - md),)),
-        Claim(
-            f"(b) It helps when teaching and network match: {TD_MD}, {TND_MND} (interaction)",
-            (Part(f"mismatched − matched, {what}", crossed),),
-        ),
+        Claim(match, (Part(f"mismatched − matched, {what}", crossed),)),
     ]
 
 
@@ -77,41 +71,33 @@ def _map(measures: Measures) -> list[Claim]:
     length, part_of_cs = measures.resultant_length, measures.slow_level_part
     what = "mean resultant length over the Cs₀ map [1]"
     same = Part(f"{TD_MD} − {SAME}, {what}", length[TD_MD] - SAME)
-    others = [name for name in NAMES if name != TD_MD]
-    only = [Part(f"{SAME} − {name}, {what}", SAME - length[name]) for name in others]
+    only = [Part(f"{SAME} − {name}, {what}", SAME - length[name]) for name in OTHERS]
     held = "(c) With Cf₀ held, the direction is"
     second = f"{TD_MD} − {NOTHING}, share of the second segment's variance with Cs₀ [1]"
+    say = Part(second, part_of_cs[TD_MD] - NOTHING)
+    more = {name: (_difference(length, TD_MD, name, what),) for name in OTHERS}
     return [
         Claim(f"{held} the same over the Cs₀ map in {TD_MD} only", (same, *only), main=True),
         Claim(f"{held} the same over the Cs₀ map in {TD_MD}", (same,)),
-        *(
-            Claim(f"{held} more uniform in {TD_MD} than in {name}",
-                  (_difference(length, TD_MD, name, what),))
-            for name in others
-        ),
-        Claim(
-            f"(c) In {TD_MD} the slow level has a say in what follows",
-            (Part(second, part_of_cs[TD_MD] - NOTHING),),
-        ),
-    ]  # fmt: skip
+        *(Claim(f"{held} more uniform in {TD_MD} than in {n}", part) for n, part in more.items()),
+        Claim(f"(c) In {TD_MD} the slow level has a say in what follows", (say,)),
+    ]
 
 
 def answer(measures: Measures) -> str:
     """Return the answer to the question, from the map's numbers."""
     lengths = measures.resultant_length
-    found: dict[str, list[str]] = {"holds": [], "does not hold": [], "undecided": []}
+    found: dict[str, list[str]] = {"yes": [], "no": [], "undecided": []}
+    words = {"holds": "yes", "does not hold": "no"}
     for name in NAMES:
         values = lengths[name].dropna()
-        if values.empty:
-            continue
-        middle = estimate(values.to_numpy(dtype=float)).value
-        verdict = judge_alone(values - SAME)
-        group = "undecided" if verdict.startswith("undecided") else verdict
-        found[group].append(f"{name} ({middle:.2f})")
+        if not values.empty:
+            middle = estimate(values.to_numpy(dtype=float)).value
+            verdict = words.get(judge_alone(values - SAME), "undecided")
+            found[verdict].append(f"{name} ({middle:.2f})")
     if not any(found.values()):
         return "No run that ended has a slow level whose map could answer it."
-    words = {"holds": "yes in", "does not hold": "no in", "undecided": "undecided in"}
-    told = "; ".join(f"{words[group]} {listed(names)}" for group, names in found.items() if names)
+    told = "; ".join(f"{verdict} in {listed(names)}" for verdict, names in found.items() if names)
     return (
         "A primitive is clear where its Cf₀ alone sets the direction of the hand, whatever Cs₀ is: "
         f"the directions' mean resultant length over the map of Cs₀ is then at least {SAME}. "

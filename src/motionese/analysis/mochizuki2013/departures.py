@@ -1,14 +1,13 @@
 """The list of departures from the paper, read from the file that the docs include."""
 
 import re
-from dataclasses import dataclass
 from importlib import resources
+from typing import NamedTuple
 
 FILE = "departures.md"
 
 
-@dataclass(frozen=True)
-class Departure:
+class Departure(NamedTuple):
     """One departure: under which heading, what, and why."""
 
     heading: str

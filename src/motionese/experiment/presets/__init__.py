@@ -70,13 +70,9 @@ def study_of(table: Table) -> Study:
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
     """Return every setting that differs, as 'name: was → now'."""
-    flat_before, flat_now = dict(_flat(before)), dict(_flat(now))
-    names = sorted(flat_before.keys() | flat_now.keys())
-    return [
-        f"{name}: {flat_before.get(name)} → {flat_now.get(name)}"
-        for name in names
-        if flat_before.get(name) != flat_now.get(name)
-    ]
+    old, new = dict(_flat(before)), dict(_flat(now))
+    changed = [n for n in sorted(old.keys() | new.keys()) if old.get(n) != new.get(n)]
+    return [f"{name}: {old.get(name)} → {new.get(name)}" for name in changed]
 
 
 def preset_text(name: str) -> str:
@@ -107,11 +103,8 @@ def _over(table: Table, above: Table) -> Table:
         within = above.get(group) if group else above
         if isinstance(within, Mapping) and last in within:
             table = _laid_over(table, {group: {last: None}} if group else {last: None})
-    body = above.get("body")
-    if (
-        isinstance(body, Mapping)
-        and body.get("name", table["body"]["name"]) != table["body"]["name"]
-    ):
+    body, robot = above.get("body"), table["body"]["name"]
+    if isinstance(body, Mapping) and body.get("name", robot) != robot:
         table = {**table, "body": {}}  # another robot has settings of its own
     return _laid_over(table, above)
 
@@ -119,13 +112,10 @@ def _over(table: Table, above: Table) -> Table:
 def _with_evaluation(table: Table) -> Table:
     """Return the table with recognition in evaluation as in learning, but for what differs."""
     learning, evaluation = table["recognition"], table["evaluation"]
-    if not isinstance(learning, Mapping) or not isinstance(evaluation, Mapping):
+    differing = evaluation.get("recognition") if isinstance(evaluation, Mapping) else None
+    if not (isinstance(learning, Mapping) and isinstance(differing, Mapping)):
         return table
-    differing = evaluation.get("recognition")
-    if not isinstance(differing, Mapping):
-        return table
-    whole = {**evaluation, "recognition": _laid_over(learning, differing)}
-    return {**table, "evaluation": whole}
+    return {**table, "evaluation": {**evaluation, "recognition": _laid_over(learning, differing)}}
 
 
 def _single(override: str, table: Table) -> Table:
@@ -167,8 +157,8 @@ def _names_in(here: Any, group: list[str]) -> list[str]:
         return [str(number) for number in range(len(here))]
     if not isinstance(here, Mapping):
         return []
-    possible = setting_names(Study, group)
-    return list(dict.fromkeys([*here, *(name.rpartition(".")[2] for name in possible)]))
+    possible = (name.rpartition(".")[2] for name in setting_names(Study, group))
+    return list(dict.fromkeys([*here, *possible]))
 
 
 def _moved(old: str) -> str:

@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import ChannelError, SettingError
-from motionese.learning.generation.generate import generate, placed
+from motionese.errors import SettingError
+from motionese.learning.generation.generate import carried, generate, placed
 from motionese.minimum_jerk import minimum_jerk, transition_rows
 from motionese.network import MTRNN
 
@@ -56,13 +56,22 @@ def generate_sequence(
         raise SettingError(
             f"the blend must be ≥ 0 and shorter than every motion ({min(steps)} rows), got {blend}"
         )
-    if network.channels is None:
-        raise ChannelError("the network carries no channels; train it on motions first")
-    names, longest = network.channels.names, max(steps)
+    channels, longest = carried(network), max(steps)
+
+    def from_here(state: ndarray, here: Mapping[str, float], rows: int) -> ndarray:
+        # Where the robot is is the first input, as in training.
+        first = np.array([here.get(name, np.nan) for name in channels.names])
+        return generate(network, placed(network, state, here), rows, first=first, duration=duration)
+
     whole = generate(network, initial_states[0], steps[0] + longest, duration=duration)
     former = whole[: steps[0]]
     if here is not None:
-        whole = _set_out(network, initial_states[0], whole, steps[0], here, blend, duration)
+        whole = from_here(initial_states[0], here, len(whole))
+        standing, over = whole[0].copy(), blend
+        standing[channels.indices(here)] = list(here.values())
+        if over is None:
+            over = transition_rows(np.abs(former[0] - standing), _speed(former), steps[0] // 2)
+        whole[:over] = _passed(standing, whole[:over])
     for state, rows in zip(initial_states[1:], steps[1:], strict=True):
         before, passing = np.split(whole, [len(whole) - longest])
         over = blend
@@ -70,47 +79,10 @@ def generate_sequence(
             own = generate(network, state, rows + longest, duration=duration)[:rows]
             apart = np.abs(own[0] - passing[0])
             over, former = transition_rows(apart, _speed(former, own), rows // 2), own
-        left = dict(zip(names, passing[0], strict=True))
-        path = _from_here(network, state, left, rows + longest, duration)
-        weight = _weight(over)
-        path[:over] = (1 - weight) * passing[:over] + weight * path[:over]
+        path = from_here(state, dict(zip(channels.names, passing[0], strict=True)), rows + longest)
+        path[:over] = _passed(passing[:over], path[:over])
         whole = np.concatenate([before, path])
     return whole[:-longest]
-
-
-def _from_here(
-    network: MTRNN,
-    state: Float[ndarray, " N"],
-    here: Mapping[str, float],
-    rows: int,
-    duration: float,
-) -> Float[ndarray, "T D"]:
-    """Generate a motion that begins where the robot is: this is its first input, as in training."""
-    there = placed(network, state, here)
-    assert network.channels is not None, "placed refuses a network without channels"
-    first = np.array([here.get(name, np.nan) for name in network.channels.names])
-    return generate(network, there, rows, first=first, duration=duration)
-
-
-def _set_out(
-    network: MTRNN,
-    state: Float[ndarray, " N"],
-    own: Float[ndarray, "T D"],
-    rows: int,
-    here: Mapping[str, float],
-    blend: int | None,
-    duration: float,
-) -> Float[ndarray, "T D"]:
-    """Return a motion that begins by standing still here, instead of its own path."""
-    path = _from_here(network, state, here, len(own), duration)
-    standing, over = path[0].copy(), blend
-    if network.channels is not None:
-        standing[network.channels.indices(here)] = list(here.values())
-    if over is None:
-        over = transition_rows(np.abs(own[0] - standing), _speed(own[:rows]), rows // 2)
-    weight = _weight(over)
-    path[:over] = (1 - weight) * standing + weight * path[:over]
-    return path
 
 
 def _speed(*paths: Float[ndarray, "_ D"]) -> Float[ndarray, " D"]:
@@ -118,6 +90,7 @@ def _speed(*paths: Float[ndarray, "_ D"]) -> Float[ndarray, " D"]:
     return np.asarray(np.max([np.abs(np.diff(path, axis=0)).max(0) for path in paths], axis=0))
 
 
-def _weight(rows: int) -> Float[ndarray, "B 1"]:
-    """Return the weight of what follows in every row of a transition, from 0 towards 1."""
-    return minimum_jerk(np.arange(rows) / max(rows, 1))[:, None]
+def _passed(before: Float[ndarray, "... D"], after: Float[ndarray, "B D"]) -> Float[ndarray, "B D"]:
+    """Pass from a path, or from standing still, to another, whose weight rises from 0 towards 1."""
+    weight = minimum_jerk(np.arange(len(after)) / max(len(after), 1))[:, None]
+    return np.asarray((1 - weight) * before + weight * after)

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy import ndarray
 
+from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
 from motionese.network import MTRNN, rollout
 from motionese.unit_interval import logit
@@ -40,8 +41,7 @@ def generate(
         The path in the channels' units. Row 0 is `first`, and y_0 where that is not given.
     """
     lasting = network if duration == 1.0 else network.lasting(duration)
-    paths, _ = _closed_loop(lasting, initial_state, steps, first)
-    return paths
+    return _closed_loop(lasting, initial_state, steps, first)[0]
 
 
 def activity(
@@ -52,8 +52,14 @@ def activity(
     first: Float[ndarray, "*batch D"] | None = None,
 ) -> Float[ndarray, "*batch T N"]:
     """Return y of all units while the network generates, as `generate` does."""
-    _, outputs = _closed_loop(network, initial_state, steps, first)
-    return outputs
+    return _closed_loop(network, initial_state, steps, first)[1]
+
+
+def carried(network: MTRNN) -> Channels:
+    """Return the channels of a trained network; `ChannelError` if it carries none."""
+    if network.channels is None:
+        raise ChannelError("the network carries no channels; train it on motions first")
+    return network.channels
 
 
 def placed(
@@ -73,9 +79,7 @@ def placed(
     Raises:
         ChannelError: A channel that the network does not have, or a value that is not finite.
     """
-    channels = network.channels
-    if channels is None:
-        raise ChannelError("the network carries no channels; train it on motions first")
+    channels = carried(network)
     columns, values = channels.indices(here), np.full(len(channels), 0.0)
     values[columns] = list(here.values())
     wrong = [name for name, value in here.items() if not np.isfinite(value)]
@@ -85,8 +89,7 @@ def placed(
         )
     states = np.array(initial_state)
     if network.initial_io == "sensed":
-        unit = channels.to_unit(values)[columns]
-        states[..., columns] = logit(unit)
+        states[..., columns] = logit(channels.to_unit(values)[columns])
     return states
 
 
@@ -96,10 +99,7 @@ def _closed_loop(
     steps: int,
     first: Float[ndarray, "*batch D"] | None,
 ) -> tuple[ndarray, ndarray]:
-    channels = network.channels
-    if channels is None:
-        raise ChannelError("the network carries no channels; train it on motions first")
-    start = np.asarray(initial_state)
+    channels, start = carried(network), np.asarray(initial_state)
     if start.shape[-1] != network.size:
         raise SettingError(
             f"initial states must have one value per unit ({network.size}), got {start.shape[-1]}"
@@ -113,9 +113,8 @@ def _closed_loop(
         row = channels.to_unit(np.asarray(first)).reshape(-1, network.io_size)
         share[:, 0] = given = np.isfinite(row)
         sensed[:, 0] = np.where(given, row, 0.5)
-    outputs = np.asarray(
-        _outputs(network, flat, jnp.asarray(sensed, flat.dtype), jnp.asarray(share, flat.dtype))
-    ).copy()
+    inputs = (jnp.asarray(part, flat.dtype) for part in (sensed, share))
+    outputs = np.array(_outputs(network, flat, *inputs))
     if first is not None:
         io = outputs[:, 0, : network.io_size]
         io[:] = np.where(given, sensed[:, 0], io)

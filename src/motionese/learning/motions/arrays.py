@@ -26,18 +26,33 @@ def checked(
         raise MotionError("no motions given; at least one is needed")
     called = tuple(names) if names is not None else tuple(str(i) for i in range(len(arrays)))
     values = tuple(np.array(a, dtype=np.float64) for a in arrays)
-    masks = (
-        tuple(np.ones(v.shape, dtype=bool) for v in values)
-        if observed is None
-        else tuple(np.array(m, dtype=bool) for m in observed)
-    )
+    if observed is None:
+        observed = [np.ones(v.shape, dtype=bool) for v in values]
+    masks = tuple(np.array(m, dtype=bool) for m in observed)
     if not len(values) == len(masks) == len(called):
         raise MotionError(
             f"{len(values)} motions need as many masks and names, "
             f"got {len(masks)} and {len(called)}"
         )
     for name, value, mask in zip(called, values, masks, strict=True):
-        _check(name, value, mask, labels)
+        if value.ndim != 2 or value.shape[1] != len(labels):
+            raise MotionError(
+                f"motion '{name}': expected an array [T, {len(labels)}] for the channels "
+                f"{', '.join(labels)}, got shape {value.shape}"
+            )
+        if mask.shape != value.shape:
+            raise MotionError(
+                f"motion '{name}': its mask has shape {mask.shape}, its values {value.shape}"
+            )
+        if len(value) < 2:
+            raise MotionError(f"motion '{name}': at least 2 rows are needed, got {len(value)}")
+        wrong = np.argwhere(mask & ~np.isfinite(value))
+        if len(wrong):
+            row, column = wrong[0]
+            raise MotionError(
+                f"motion '{name}', row {row}, channel '{labels[column]}': "
+                f"values must be finite, got {value[row, column]}; mask what was not observed"
+            )
     return values, masks, called
 
 
@@ -83,24 +98,3 @@ def channels_of(
             low, high = range_of(name, np.concatenate(seen), MARGIN)
         channels.append(Channel(name, units.get(name, ""), low, high))
     return Channels(channels)
-
-
-def _check(name: str, value: ndarray, mask: ndarray, labels: Sequence[str]) -> None:
-    if value.ndim != 2 or value.shape[1] != len(labels):
-        raise MotionError(
-            f"motion '{name}': expected an array [T, {len(labels)}] for the channels "
-            f"{', '.join(labels)}, got shape {value.shape}"
-        )
-    if mask.shape != value.shape:
-        raise MotionError(
-            f"motion '{name}': its mask has shape {mask.shape}, its values {value.shape}"
-        )
-    if len(value) < 2:
-        raise MotionError(f"motion '{name}': at least 2 rows are needed, got {len(value)}")
-    wrong = np.argwhere(mask & ~np.isfinite(value))
-    if len(wrong):
-        row, column = wrong[0]
-        raise MotionError(
-            f"motion '{name}', row {row}, channel '{labels[column]}': "
-            f"values must be finite, got {value[row, column]}; mask what was not observed"
-        )

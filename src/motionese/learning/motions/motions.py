@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
@@ -17,7 +18,7 @@ from numpy import ndarray
 from motionese.channels import Channels
 from motionese.errors import MotionError, unknown
 from motionese.learning.motions.arrays import channels_of, checked, checked_weights
-from motionese.learning.motions.batch import Batch, padded
+from motionese.learning.motions.batch import Batch
 from motionese.recordings import Episode, Recording, choose, prepare
 from motionese.recordings import read as read_recording
 from motionese.recordings import write as write_recording
@@ -145,16 +146,11 @@ class Motions:
             SettingError: A format that does not exist, or none given and none told by `path`.
         """
         names = self.channels.names
-        episodes = zip(self.names, self.values, self.observed, strict=True)
-        recording = Recording(
-            Path(path),
-            names,
-            tuple(c.unit for c in self.channels),
-            {c.name: (c.low, c.high) for c in self.channels},
-            self.rate_hz,
-            tuple(Episode(n, None, v, m) for n, v, m in episodes),
-            names,
-        )
+        units = tuple(c.unit for c in self.channels)
+        ranges = {c.name: (c.low, c.high) for c in self.channels}
+        rows = zip(self.names, self.values, self.observed, strict=True)
+        kept = tuple(Episode(name, None, value, mask) for name, value, mask in rows)
+        recording = Recording(Path(path), names, units, ranges, self.rate_hz, kept, names)
         write_recording(path, recording, format)
 
     @property
@@ -206,11 +202,16 @@ class Motions:
                 f"{len(self)} motions of up to {max(self.lengths)} rows "
                 f"do not fit into {count} of {rows} rows"
             )
-        unit = [
-            self.channels.to_unit(np.where(mask, value, 0.0))
-            for value, mask in zip(self.values, self.observed, strict=True)
-        ]
-        return padded(unit, self.observed, self.weights or self.observed, rows, count)
+        sensed = np.full((count, rows, len(self.channels)), 0.5)
+        observed, weight = np.zeros(sensed.shape), np.zeros(sensed.shape)
+        motions = zip(self.values, self.observed, self.weights or self.observed, strict=True)
+        for i, (value, mask, counts) in enumerate(motions):
+            unit = self.channels.to_unit(np.where(mask, value, 0.0))
+            sensed[i, : len(value)] = np.where(mask, unit, 0.5)
+            observed[i, : len(value)] = mask
+            weight[i, : len(value)] = mask * counts
+        kind = jnp.result_type(float)
+        return Batch(*(jnp.asarray(part, kind) for part in (sensed, observed, weight)))
 
     def __len__(self) -> int:
         return len(self.values)

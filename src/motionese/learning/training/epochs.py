@@ -17,10 +17,8 @@ from motionese.learning.parameters import Parameters
 class Iterate(eqx.Module):
     """What an epoch of training hands to the next.
 
-    Attributes:
-        free: Free values of all that is learned, by the names of `PARAMETERS`.
-        memory: The update rule's.
-        epoch: Epochs done.
+    Free values of all that is learned, by the names of `PARAMETERS`; the update rule's memory; and
+    epochs done.
     """
 
     free: dict[str, Any]
@@ -50,10 +48,8 @@ def run_epochs(
 
     def loss(free: dict[str, Any], disturbance: Array | None) -> Array:
         now = start.moved(free)
-        predicted = predictions(
-            now.network, batch, now.initial_states, teacher_forcing, disturbance
-        )
-        return error(predicted, batch).sum()
+        states, forced = now.initial_states, teacher_forcing
+        return error(predictions(now.network, batch, states, forced, disturbance), batch).sum()
 
     def disturbance(epoch: Array) -> Array | None:
         if noise is None:

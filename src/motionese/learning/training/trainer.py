@@ -71,30 +71,25 @@ class Trainer:
 
     def advanced(self, state: TrainingState) -> tuple[TrainingState, Status | None]:
         """Return the state a chunk of epochs later, and how training ended if it did."""
+        forced = jnp.asarray(self.settings.teacher_forcing, self.start.network.weights.dtype)
+        problem = (self.start, self.batch, self.rule, self.error, forced)
+        epochs = min(CHUNK, self.settings.epochs - len(state.losses))
         following, chunk = run_epochs(
-            state.latest,
-            self.start,
-            self.batch,
-            self.rule,
-            self.error,
-            jnp.asarray(self.settings.teacher_forcing, self.start.network.weights.dtype),
-            self.bound,
-            self.noise,
-            self.key,
-            min(CHUNK, self.settings.epochs - len(state.losses)),
+            state.latest, *problem, self.bound, self.noise, self.key, epochs
         )
         losses = np.concatenate([state.losses, np.asarray(chunk)])
-        diverged = _diverged(losses, state.latest, following)
-        if diverged:
-            return replace(state, losses=losses), diverged
+        wrong = np.flatnonzero(~np.isfinite(losses))
+        if len(wrong) or not following.finite:
+            epoch = int(wrong[0]) if len(wrong) else int(following.epoch)
+            told = (
+                f"the loss or a weight was no longer finite at epoch {epoch}; "
+                f"what was learned in {int(state.latest.epoch)} epochs is kept"
+            )
+            return replace(state, losses=losses), Status(Ending.DIVERGED, told)
         state = replace(state, latest=following, losses=losses)
         if self.validation:
-            found = recognise_all(
-                self.start.moved(following.free).network,
-                self.validation,
-                starts=state.held_out[:, None],
-                settings=WARM,
-            )
+            network, starts = self.start.moved(following.free).network, state.held_out[:, None]
+            found = recognise_all(network, self.validation, starts=starts, settings=WARM)
             loss = sum(each.loss for each in found)
             better = loss < state.validation_losses.min(initial=np.inf)
             state = replace(
@@ -107,26 +102,33 @@ class Trainer:
 
     def ended(self, state: TrainingState) -> Status | None:
         """Return how training ended, or None while it goes on."""
-        converged = _converged(state, self.settings, bool(self.validation))
-        if converged is None and len(state.losses) == self.settings.epochs:
-            return Status(Ending.STOPPED, f"all {self.settings.epochs} epochs done")
-        return converged
+        epochs, patience = len(state.losses), self.settings.patience
+        watched, last, whose = state.losses, patience, ""
+        if self.validation:
+            watched, last = state.validation_losses, -(-patience // CHUNK)
+            whose = " of the held-out motions"
+        if last and len(watched) > last:
+            before, since = watched[:-last].min(), watched[-last:].min()
+            tolerance = self.settings.tolerance
+            if since > before - tolerance * abs(before):
+                return Status(
+                    Ending.CONVERGED,
+                    f"the loss{whose} fell by less than {tolerance:g} of itself "
+                    f"in {patience} epochs, at epoch {epochs}",
+                )
+        if epochs == self.settings.epochs:
+            return Status(Ending.STOPPED, f"all {epochs} epochs done")
+        return None
 
     def progress(self, state: TrainingState) -> Progress:
         """Return how good the network is by now."""
         now, channels = self.start.moved(state.latest.free), self.motions.channels
         closed = share_of_range(self._errors(now, 0.0), channels)
-        held_out = None
+        loss = error = None
         if self.validation:
             errors = errors_of(now.network, self.validation.batch(), state.held_out, 0.0)
-            held_out = share_of_range(errors, channels)
-        return Progress(
-            epoch=len(state.losses),
-            loss=float(state.losses[-1]),
-            closed_loop_error=closed,
-            validation_loss=float(state.validation_losses[-1]) if self.validation else None,
-            validation_error=held_out,
-        )
+            loss, error = float(state.validation_losses[-1]), share_of_range(errors, channels)
+        return Progress(len(state.losses), float(state.losses[-1]), closed, loss, error)
 
     def fit(self, state: TrainingState, status: Status) -> Fit:
         """Return what training left: its latest network, or the best where one was looked for."""
@@ -224,33 +226,3 @@ def _digest(*values: object) -> str:
     for value in values:
         whole.update(value.encode() if isinstance(value, str) else np.asarray(value).tobytes())
     return whole.hexdigest()
-
-
-def _diverged(losses: Float[ndarray, " E"], before: Iterate, after: Iterate) -> Status | None:
-    """Return that a loss or a parameter is no longer finite, and where, or None if all are."""
-    wrong = np.flatnonzero(~np.isfinite(losses))
-    if after.finite and not len(wrong):
-        return None
-    epoch = int(wrong[0]) if len(wrong) else int(after.epoch)
-    return Status(
-        Ending.DIVERGED,
-        f"the loss or a weight was no longer finite at epoch {epoch}; "
-        f"what was learned in {int(before.epoch)} epochs is kept",
-    )
-
-
-def _converged(state: TrainingState, settings: Training, held_out: bool) -> Status | None:
-    """Return that the loss no longer falls, or None while it does or nobody asks."""
-    watched, patience = state.losses, settings.patience
-    if held_out:
-        watched, patience = state.validation_losses, -(-settings.patience // CHUNK)
-    if patience and len(watched) > patience:
-        before, since = watched[:-patience].min(), watched[-patience:].min()
-        if since > before - settings.tolerance * abs(before):
-            whose = " of the held-out motions" if held_out else ""
-            return Status(
-                Ending.CONVERGED,
-                f"the loss{whose} fell by less than {settings.tolerance:g} of itself "
-                f"in {settings.patience} epochs, at epoch {len(state.losses)}",
-            )
-    return None

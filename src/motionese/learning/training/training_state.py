@@ -64,19 +64,14 @@ class TrainingState:
         for name in SERIES:
             _check(path, arrays, name, (len(arrays.get(name, ())),))
         _check(path, arrays, "held_out", self.held_out.shape)
-        return TrainingState(
-            _filled(path, arrays, "latest", self.latest),
-            _filled(path, arrays, "best", self.best),
-            arrays["held_out"],
-            arrays["losses"],
-            arrays["validation_losses"],
-        )
+        latest = _filled(path, arrays, "latest", self.latest)
+        best = _filled(path, arrays, "best", self.best)
+        return TrainingState(latest, best, arrays["held_out"], *(arrays[name] for name in SERIES))
 
 
 def epochs_done(path: Path) -> int:
     """Return after how many epochs a checkpoint was written; `StorageError` if it is none."""
-    facts, _ = _contents(path)
-    return int(facts["epochs"])
+    return int(_contents(path)[0]["epochs"])
 
 
 def _contents(path: Path) -> tuple[dict[str, str], dict[str, ndarray]]:
