@@ -7,6 +7,7 @@ from motionese.learning.memory import Memory
 from motionese.learning.model_recordings import read_for
 from motionese.learning.motions.batch import Batch
 from motionese.learning.motions.motions import Motions
+from motionese.learning.recognition.online import recognise_online, runtime_model
 from motionese.learning.recognition.recognise import recognise, recognise_all
 from motionese.learning.recognition.result import RecognitionResult
 from motionese.learning.settings import Recognition, Training
@@ -35,6 +36,8 @@ __all__ = [
     "read_for",
     "recognise",
     "recognise_all",
+    "recognise_online",
+    "runtime_model",
     "save",
     "split",
     "train",

@@ -24,6 +24,8 @@ from motionese.network import read_out, sensitivities
 
 FIRST_DAMPING = 1e-2
 """λ of the first step, as a share of the largest diagonal element of Jᵀ V J."""
+BROAD = 8
+"""Steps that are taken from every start, before only the best of every motion goes on."""
 EASED, RAISED = 0.2, 5.0
 """λ is multiplied by the first after a step that was taken, by the second after another."""
 LARGEST_DAMPING = 1e4
@@ -58,7 +60,40 @@ class _Progress(NamedTuple):
 
 @eqx.filter_jit
 def damped_steps(search: Search, iterations: int) -> Found:
-    """Take damped steps from every start, so many at most, and keep the best of every motion."""
+    """Take damped steps, so many at most, and keep the best start of every motion.
+
+    All starts take the first `BROAD` steps; only the best of every motion goes on.
+    """
+    starts = search.free.shape[1]
+    broad = _taken(search, _at(search, search.begin), min(iterations, BROAD))
+    if iterations <= BROAD or starts == 1:
+        return search.found(broad.sought, broad.loss, broad.taken)
+    chosen = search.found(broad.sought, broad.loss, broad.taken).chosen
+    best = jnp.arange(len(chosen)) * starts + chosen
+    narrow = _taken(search.among(chosen), _Progress(*(part[best] for part in broad)), iterations)
+    return search.found(
+        broad.sought.at[best].set(narrow.sought),
+        broad.loss.at[best].set(narrow.loss),
+        broad.taken.at[best].set(narrow.taken),
+    )
+
+
+def _at(search: Search, sought: Float[Array, "B K"]) -> _Progress:
+    loss, curvature, slope = normal_equations(search, sought)
+    loss = jnp.where(jnp.isfinite(loss), loss, jnp.inf)
+    return _Progress(
+        sought,
+        loss,
+        curvature,
+        slope,
+        jnp.full_like(loss, FIRST_DAMPING),
+        jnp.ones(len(loss), bool),
+        jnp.zeros(len(loss), int),
+    )
+
+
+def _taken(search: Search, begin: _Progress, iterations: int) -> _Progress:
+    """Return where damped steps lead: until there are so many, or nothing moves any more."""
 
     def step(now: _Progress) -> _Progress:
         sought = _stepped(search, now)
@@ -77,23 +112,11 @@ def damped_steps(search: Search, iterations: int) -> Found:
             now.taken + moving,
         )
 
-    loss, curvature, slope = normal_equations(search, search.begin)
-    loss = jnp.where(jnp.isfinite(loss), loss, jnp.inf)
-    begin = _Progress(
-        search.begin,
-        loss,
-        curvature,
-        slope,
-        jnp.full_like(loss, FIRST_DAMPING),
-        jnp.ones(len(loss), bool),
-        jnp.zeros(len(loss), int),
-    )
-    end = jax.lax.while_loop(
+    return jax.lax.while_loop(
         lambda now: (now.taken.max() < iterations) & search.unfinished(now.loss, now.moving),
         step,
         begin,
     )
-    return search.found(end.sought, end.loss, end.taken)
 
 
 def normal_equations(

@@ -86,6 +86,14 @@ class Search(NamedTuple):
         short, moving = (a.reshape(self.enough.shape) for a in (self.short(loss), moving))
         return (short.all(1) & moving.any(1)).any()
 
+    def among(self, chosen: Int[Array, " S"]) -> "Search":
+        """Return the search that goes on from one start of every motion."""
+        free, enough = (
+            jnp.take_along_axis(part, chosen.reshape(-1, *[1] * (part.ndim - 1)), axis=1)
+            for part in (self.free, self.enough)
+        )
+        return self._replace(free=free, enough=enough)
+
     def found(self, sought: Array, loss: Array, taken: Array) -> Found:
         """Return what is kept of the starts: what they came to, its loss, the steps it took."""
         by_start = loss.reshape(self.enough.shape)
