@@ -21,12 +21,15 @@ from motionese.experiment.conditions import Condition
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 from motionese.imitation import (
+    Learner,
     LoopDone,
     Recordings,
     Row,
     Scene,
     Stage,
     babbled,
+    followed,
+    imitate,
     imitate_novel,
     imitation_loop,
     kept_of,
@@ -35,6 +38,7 @@ from motionese.imitation import (
     network_row,
     newborn,
     next_stage,
+    switched,
 )
 
 ENDED = "ended.json"
@@ -173,13 +177,7 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
         "development.csv": [checkpoint.development for checkpoint in loops],
     }
     if not last.failure:
-        taught = [sequence for stage in stages for sequence in stage.lesson]
-        kept: dict[str, np.ndarray] = {}
-        for name in scene.task.novel:
-            novel = scene.task.lesson(name)
-            tables[f"{name}.csv"], imitated = imitate_novel(scene, last.learner, novel, taught)
-            kept |= kept_of(scene.task, imitated)
-        tables["slow_state_map.csv"] = map_slow_states(scene, last.learner)
+        kept = _evaluated(scene, stages, last.learner, tables)
         content = io.BytesIO()
         np.savez_compressed(content, allow_pickle=False, **kept)
         write_whole(run.folder / "inside.npz", content.getvalue())
@@ -194,6 +192,30 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
     }
     write_whole(run.folder / ENDED, json.dumps(ended, indent=1))
     return ended
+
+
+def _evaluated(
+    scene: Scene, stages: tuple[Stage, ...], learner: Learner, tables: dict[str, list[Row]]
+) -> dict[str, np.ndarray]:
+    """Add what a learner can do to a run's tables; return what is kept of its performances."""
+    taught = [sequence for stage in stages for sequence in stage.lesson]
+    settings, lesson = scene.settings, stages[-1].lesson
+    kept: dict[str, np.ndarray] = {}
+    shown = {True: imitate(scene, learner, lesson, settings.recognition, "online")}
+    for name in scene.task.novel:
+        novel = scene.task.lesson(name)
+        tables[f"{name}.csv"], imitated = imitate_novel(scene, learner, novel, taught)
+        kept |= kept_of(scene.task, imitated)
+        shown[False] = [*shown.get(False, []), *imitated]
+    tables["slow_state_map.csv"] = map_slow_states(scene, learner)
+    tables["online.csv"] = [
+        {"taught": known, **row}
+        for known, imitated in shown.items()
+        for row in followed(scene, learner, imitated)
+    ]
+    switches = switched(scene, learner, lesson, settings.evaluation.online.switches)
+    tables["switches.csv"] = [each.measures() for each in switches]
+    return kept | (switches[0].kept() if switches else {})
 
 
 def write_table(path: Path, rows: Sequence[Row]) -> None:

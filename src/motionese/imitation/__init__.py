@@ -2,6 +2,7 @@
 
 from motionese.imitation.development import LoopDone, Settled, Stage, Until, next_stage
 from motionese.imitation.evaluation import imitate_novel, kept_of, sample_sequence
+from motionese.imitation.following import follow, followed, recognised_while_shown
 from motionese.imitation.initial_state_map import (
     has_map,
     map_slow_states,
@@ -23,6 +24,7 @@ from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.imitation.performance import Performance, Watched, babble, perform, watch
 from motionese.imitation.scene import Recordings, Scene
 from motionese.imitation.settings import Group, Settings, checked, setting_names
+from motionese.imitation.switching import Switch, sequence_of, switched
 
 __all__ = [
     "BABBLING",
@@ -38,11 +40,14 @@ __all__ = [
     "Settings",
     "Settled",
     "Stage",
+    "Switch",
     "Until",
     "Watched",
     "babble",
     "babbled",
     "checked",
+    "follow",
+    "followed",
     "generator_for",
     "has_map",
     "imitate",
@@ -57,10 +62,13 @@ __all__ = [
     "path_error_cm",
     "perform",
     "read_learner",
+    "recognised_while_shown",
     "sample_sequence",
     "seen_error_cm",
+    "sequence_of",
     "setting_names",
     "slow_map_of",
+    "switched",
     "watch",
     "with_slow_state",
     "write_learner",

@@ -10,6 +10,9 @@ from motionese.imitation.loop import Imitation, Row, imitate
 from motionese.imitation.scene import Scene
 from motionese.task import PrimitiveSequence, Task
 
+ERRORS = ("imitation_error_cm", "recognition_residual_cm")
+"""Measures that are taken of a new sequence sought from the repertoire as well."""
+
 
 def imitate_novel(
     scene: Scene,
@@ -17,7 +20,10 @@ def imitate_novel(
     novel: Sequence[PrimitiveSequence],
     taught: Iterable[PrimitiveSequence],
 ) -> tuple[list[Row], list[Imitation]]:
-    """Imitate every new sequence once, by recognition alone.
+    """Imitate every new sequence by recognition alone, once by long search and once by a short one.
+
+    The long one goes as far as it leads. The short one starts from all that was learned, in every
+    combination, and stays near it: it tells what is in the repertoire.
 
     Args:
         scene: Robot and caregiver.
@@ -31,16 +37,20 @@ def imitate_novel(
     """
     taught = set(taught)
     pairs = {pair for sequence in taught for pair in sequence.pairs()}
-    settings = scene.settings.evaluation.recognition
-    imitated = imitate(scene, learner, novel, settings, "new motions")
+    settings = scene.settings.evaluation
+    occasion, repertoire = "new motions", learner.repertoire()
+    imitated = imitate(scene, learner, novel, settings.recognition, occasion)
+    known = imitate(scene, learner, novel, settings.repertoire, occasion, starts=repertoire)
     rows = [
         {
             "motion": each.sequence.name,
             "trained": pairs.issuperset(each.sequence.pairs()),
             **each.measures(scene),
             "status": each.found.status.ending.value,
+            **{f"repertoire_{name}": near.measures(scene)[name] for name in ERRORS},
+            "repertoire_status": near.found.status.ending.value,
         }
-        for each in imitated
+        for each, near in zip(imitated, known, strict=True)
         if each.sequence not in taught
     ]
     return rows, imitated

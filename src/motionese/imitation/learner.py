@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -152,6 +153,17 @@ class Learner:
             if common >= longest:
                 longest, best = common, experience.initial_state
         return best
+
+    def repertoire(self) -> Float[ndarray, "R N"]:
+        """Return initial states of all that it has learned, in every combination of its levels.
+
+        Each context level takes its states from the latest experience of one of the motions: the
+        Cf_0 of one beside the Cs_0 of another.
+        """
+        latest = {e.motion: e.initial_state for e in self.experiences}
+        ends = np.cumsum(self.network.sizes)[1:-1]
+        levels = zip(*(np.split(state, ends) for state in latest.values()), strict=True)
+        return np.array([np.concatenate(each) for each in product(*levels)])
 
     def grown(self, settings: NetworkSettings, key: Array) -> "Learner":
         """Return the learner with the next level opened, its initial states at 0."""

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
 
 from motionese.caregiver import Manner
 from motionese.imitation.development import Stage
@@ -58,15 +60,19 @@ def imitate(
     settings: Recognition,
     *occasion: str | int,
     manner: Manner | None = None,
+    starts: Float[ndarray, "M N"] | None = None,
 ) -> list[Imitation]:
-    """Take steps 1 to 3 with some sequences; nothing is learned."""
+    """Take steps 1 to 3 with some sequences; nothing is learned.
+
+    Recognition starts from given initial states, or from that of the most similar motion.
+    """
     watched = [scene.show(s, *occasion, manner=manner) for s in sequences]  # step 1
     values = [scene.as_own(s.start, w) for s, w in zip(sequences, watched, strict=True)]
-    starts = np.array([learner.start_for(sequence) for sequence in sequences])[:, None]
+    begin = [learner.start_for(s)[None] if starts is None else starts for s in sequences]
     found = recognise_all(  # step 2
         learner.network,
         scene.to_recognise(values, names=[s.name for s in sequences]),
-        starts=starts,
+        starts=np.array(begin),
         settings=learner.for_levels(settings),
         key=key_for(scene.seed, "recognition", *occasion),
     )

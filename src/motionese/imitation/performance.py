@@ -104,12 +104,12 @@ def perform(
         rng: Noise of the sensors and of exploration.
     """
     body.reset(posture, rng)
-    record = _Record(body, posture)
-    now = record.latest(acting.efference_copy, np.full(len(body.channels), 0.5))
+    trial = Trial(body, posture)
+    now = trial.latest(acting.efference_copy, np.full(len(body.channels), 0.5))
     state = np.array(initial_state)
     if network.initial_io == "sensed":
         state[: len(now)] = logit(now)
-    record.think(body.channels.from_unit(now), state)
+    trial.think(body.channels.from_unit(now), state)
     share = 1.0
     for _ in range(steps - 1):
         state = np.asarray(
@@ -117,14 +117,14 @@ def perform(
         )
         predicted = sigmoid(state[: len(now)])
         prediction = body.channels.from_unit(predicted)
-        record.think(prediction, state)
-        command = prediction[list(record.joints)]
+        trial.think(prediction, state)
+        command = prediction[list(trial.joints)]
         if acting.exploration:
             command = command + acting.exploration * rng.standard_normal(len(command))
-        record.step(command)
-        now = record.latest(acting.efference_copy, predicted)
+        trial.step(command)
+        now = trial.latest(acting.efference_copy, predicted)
         share = acting.feedback
-    return record.performance()
+    return trial.performance()
 
 
 def babble(
@@ -135,16 +135,16 @@ def babble(
     low, high = body.channels.from_unit(ends)[:, body.channels.indices(body.joints)]
     start, end = rng.uniform(low, high, (2, len(body.joints)))
     body.reset(start, rng)
-    record = _Record(body, start)
-    record.think(record.sensed[0], np.zeros(0))
+    trial = Trial(body, start)
+    trial.think(trial.sensed[0], np.zeros(0))
     for row in range(1, steps):
         share = float(minimum_jerk(np.array(min(row / stroke_steps, 1.0))))
-        record.think(record.sensed[-1], np.zeros(0))
-        record.step(start + share * (end - start))
-    return record.performance()
+        trial.think(trial.sensed[-1], np.zeros(0))
+        trial.step(start + share * (end - start))
+    return trial.performance()
 
 
-class _Record:
+class Trial:
     """The rows of a trial, from its posture on."""
 
     def __init__(self, body: SimulatedRobot, posture: Float[ndarray, " J"]) -> None:

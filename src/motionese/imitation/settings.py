@@ -1,7 +1,7 @@
 """What may be varied about an imitation, as types with their allowed ranges."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any, TypeVar, get_args
+from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
@@ -88,10 +88,21 @@ class Acting(Group):
     rehearsal: bool
 
 
+class Online(Group):
+    """Recognition while a demonstration is shown, and the lags at which the robot follows it."""
+
+    window: int = Field(ge=2)
+    steps: int = Field(ge=0)
+    lags: tuple[Annotated[int, Field(ge=0)], ...]
+    switches: int = Field(ge=0)
+
+
 class Evaluation(Group):
-    """Recognition of new motions, and the map of the slow initial states."""
+    """Recognition of new motions and of shown ones, and the map of the slow initial states."""
 
     recognition: Recognition
+    repertoire: Recognition
+    online: Online
     map_points: int = Field(ge=2)
     map_range: float = Field(gt=0, allow_inf_nan=False)
 

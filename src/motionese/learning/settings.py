@@ -72,11 +72,16 @@ class Recognition(BaseModel):
     """How the initial states of an observed motion are found, the weights frozen.
 
     Attributes:
-        iterations: Updates of the initial states, at most.
+        iterations: Steps at most.
         starts: Random starts beside those that are given.
         spread: Standard deviation of the random starts.
-        optimiser: Plain gradient descent, with momentum, or Adam.
-        rate: Rate of the updates, times 0.3 after 70 % of them.
+        optimiser: Least squares (damped Gauss–Newton steps), plain gradient descent, with momentum,
+            or Adam; the last three need some hundred iterations.
+        levels: Context levels whose initial states are sought, the others being held at those of
+            the first start; all if left out.
+        still: Least squares ends where a step makes the loss smaller by less than this share: to
+            go on is to fit noise.
+        rate: Rate of gradient descent, times 0.3 after 70 % of the iterations.
         momentum: Of `optimiser = "momentum"`.
         bound: Largest |u_0| of the initial states, for all context levels or by level.
         penalty: Weight of Σ u_0² beside the summed squared error; a prior at 0.
@@ -91,6 +96,7 @@ class Recognition(BaseModel):
     spread: float = Field(default=0.5, ge=0)
     optimiser: Optimiser | Literal["least_squares"] = "adam"
     levels: tuple[str, ...] | None = Field(default=None, min_length=1)
+    still: float = Field(default=1e-4, ge=0, lt=1)
     rate: Rate = 0.2
     momentum: float = Field(default=0.9, ge=0, lt=1)
     bound: Bound = 100.0

@@ -39,6 +39,8 @@ class OnlineResult:
         ahead: The rows that come next, in the channels' units. [A, D]
         spread: Their standard deviation, by what the window leaves open. [A, D]
         belief: How likely every learned motion is being shown, and `NONE`; the sum is 1.
+        learned: The learned motion that is believed in most, and the row it has come to; what is
+            shown may still rather be none of these, see `likeliest`.
         error: Root mean squared error of what was observed in these rows, as a share of the
             channels' ranges; NaN where nothing was after the first.
         values: Observed values after the first row. Where they are fewer than the network's
@@ -52,6 +54,7 @@ class OnlineResult:
     ahead: ndarray
     spread: ndarray
     belief: Mapping[str, float]
+    learned: tuple[str, int]
     error: float
     values: int
     steps: int
@@ -245,6 +248,7 @@ class OnlineRecognition:
             ahead=path[len(rows) :],
             spread=self._spread(here, len(rows)),
             belief=self._belief.shares,
+            learned=self._belief.likeliest,
             error=float(error),
             values=values,
             steps=steps,

@@ -112,10 +112,14 @@ def _over(table: Table, above: Table) -> Table:
 def _with_evaluation(table: Table) -> Table:
     """Return the table with recognition in evaluation as in learning, but for what differs."""
     learning, evaluation = table["recognition"], table["evaluation"]
-    differing = evaluation.get("recognition") if isinstance(evaluation, Mapping) else None
-    if not (isinstance(learning, Mapping) and isinstance(differing, Mapping)):
+    if not (isinstance(learning, Mapping) and isinstance(evaluation, Mapping)):
         return table
-    return {**table, "evaluation": {**evaluation, "recognition": _laid_over(learning, differing)}}
+    whole = {
+        name: _laid_over(learning, differing)
+        for name in ("recognition", "repertoire")
+        if isinstance(differing := evaluation.get(name), Mapping)
+    }
+    return {**table, "evaluation": {**evaluation, **whole}}
 
 
 def _single(override: str, table: Table) -> Table:

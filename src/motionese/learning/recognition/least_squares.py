@@ -32,8 +32,6 @@ LARGEST_DAMPING = 1e4
 """With a larger λ a step moves nothing any more."""
 TINY = 1e-30
 """λ where nothing that is sought changes anything."""
-STILL = 1e-4
-"""Nothing moves any more where a step that was taken made the loss smaller by less than this."""
 
 
 class _Progress(NamedTuple):
@@ -98,18 +96,19 @@ def _taken(search: Search, begin: _Progress, iterations: int) -> _Progress:
     def step(now: _Progress) -> _Progress:
         sought = _stepped(search, now)
         loss, curvature, slope = normal_equations(search, sought)
-        moving = now.moving & search.short(now.loss)
-        better = moving & (loss < now.loss)
+        tried = now.moving & search.short(now.loss)
+        better = tried & (loss < now.loss)
         damping = now.damping * jnp.where(better, EASED, RAISED)
-        still = jnp.where(better, now.loss - loss < STILL * now.loss, damping > LARGEST_DAMPING)
+        gained = now.loss - loss >= search.still * now.loss
+        moving = tried & jnp.where(better, gained, damping <= LARGEST_DAMPING)
         return _Progress(
             jnp.where(better[:, None], sought, now.sought),
             jnp.where(better, loss, now.loss),
             jnp.where(better[:, None, None], curvature, now.curvature),
             jnp.where(better[:, None], slope, now.slope),
             damping,
-            moving & ~still,
-            now.taken + moving,
+            moving,
+            now.taken + tried,
         )
 
     return jax.lax.while_loop(

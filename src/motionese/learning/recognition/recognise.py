@@ -133,6 +133,7 @@ def recognise_all(
         network.per_unit(settings.bound, jnp.inf),
         jnp.asarray(settings.penalty, free.dtype),
         _enough(memory, recall, count, free.shape[1]),
+        jnp.asarray(settings.still, free.dtype),
     )
     return judged(network, motions, batch, _found(search, settings), settings)
 

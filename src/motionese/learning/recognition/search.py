@@ -38,6 +38,7 @@ class Search(NamedTuple):
             there first is kept (the discrepancy principle: to fit closer than the network knows
             its motions is to fit noise, at the cost of what was not observed). −∞ to go on for as
             long as it helps and keep the smallest loss. [S, M]
+        still: Damped steps end where one makes the loss smaller by less than this share.
     """
 
     network: MTRNN
@@ -47,6 +48,7 @@ class Search(NamedTuple):
     bound: Float[Array, " N"]
     penalty: Float[Array, ""]
     enough: Float[Array, "S M"]
+    still: float | Float[Array, ""] = 1e-4
 
     @property
     def repeated(self) -> Batch:
