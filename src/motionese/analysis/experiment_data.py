@@ -21,6 +21,7 @@ from motionese.experiment.run import runs_in
 from motionese.task import Task
 
 MAP = "slow_state_map"
+REPERTOIRE = ["imitation_error_cm", "recognition_residual_cm", "status"]
 MEASURED = ["imitation_error_cm", "recognition_residual_cm", "model_error_cm"]
 
 
@@ -30,12 +31,15 @@ def leading_columns(study: Study) -> dict[str, list[str]]:
     of = dict.fromkeys(c for outcome in task.outcomes for c in (outcome.of, outcome.column) if c)
     who, top = ["condition", "seed"], list(study.network.levels)[-1]
     new = [*who, "motion", "trained", *MEASURED, *of, "status"]
+    new += [f"repertoire_{name}" for name in REPERTOIRE]
     ways = [f"{what}_{segment}_rad" for segment in (1, 2) for what in ("direction", "extent")]
     loop = ["loop", "phase", "motion", *MEASURED, "reproduction_error_cm"]
     return {
         "loops": [*who, *loop, *of, "status", "seconds"],
         "development": [*who, "loop", "levels"],
         **dict.fromkeys(task.novel, new),
+        "online": [*who, "taught", "motion", "lag", MEASURED[0], "after_the_fact_error_cm"],
+        "switches": [*who, "first", "second", "row", "steps"],
         MAP: [*who, "primitive", f"{top}_1", f"{top}_2", *ways],
     }
 
@@ -53,6 +57,8 @@ class ExperimentData:
         development: A row per loop on the network.
         novel: A row per new sequence, by the set's name.
         slow_state_map: A row per primitive and point of the map.
+        online: A row per sequence and lag at which it was followed while it was shown.
+        switches: A row per demonstration that turned into another.
     """
 
     folder: Path
@@ -61,6 +67,8 @@ class ExperimentData:
     development: pd.DataFrame
     novel: dict[str, pd.DataFrame]
     slow_state_map: pd.DataFrame
+    online: pd.DataFrame
+    switches: pd.DataFrame
     facts: Facts
 
     @property

@@ -18,6 +18,7 @@ from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
 from motionese.analysis.seed_measures import Measures, typical_seed
+from motionese.analysis.while_shown import following, noticing
 from motionese.figure_style import SETTINGS, Drawing, finished
 from motionese.imitation import sample_sequence
 
@@ -38,7 +39,7 @@ class Shown(NamedTuple):
 
 def figures(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
     """Draw all figures that the runs allow, one after the other."""
-    for draw in (_over_loops, _of_new_sequences, _of_the_map, _of_the_inside):
+    for draw in (_over_loops, _of_new_sequences, _while_shown, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):
             drawn = list(draw(data, measures))
         yield from drawn
@@ -97,6 +98,34 @@ def _of_new_sequences(data: ExperimentData, measures: Measures) -> Iterator[Show
             "is a seed's mean over sequences, joined across the two; black bars beside them are "
             "medians over seeds with their bootstrap 95 % intervals.",
             new_sequences(measures, looks),
+        )
+
+
+def _while_shown(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
+    online, turns = data.online, data.switches
+    if len(online):
+        looks = {n: look for n, look in data.looks.items() if n in set(online["condition"])}
+        yield _shown(
+            "following",
+            "online",
+            "The robot imitates while it watches: imitation error by how many rows it is behind. "
+            "With a lag of 0 it commands what it predicts. On the right the same demonstrations, "
+            "recognised as a whole and then performed. Medians over seeds of the mean over "
+            "sequences, with bootstrap 95 % intervals.",
+            following(online, looks),
+        )
+    first = turns.drop_duplicates(["condition", "seed"]).set_index("condition")
+    seeds = {str(c): int(own["seed"].iloc[0]) for c, own in first.groupby(level=0, sort=False)}
+    kept = {c: arrays for c, s in seeds.items() if (arrays := data.inside(c, s))}
+    kept = {c: arrays for c, arrays in kept.items() if "switch" in arrays}
+    if kept:
+        yield _shown(
+            "noticing",
+            "online",
+            "Belief against time while a demonstration turns, in mid-stroke, into another motion "
+            "(upright line); dashed: the row from which the robot believes in what is shown now. "
+            f"Shown is the first turn of the first seed: {_in_words({c: seeds[c] for c in kept})}.",
+            noticing(kept, first[~first.index.duplicated()], data.looks, data.robot.rate_hz),
         )
 
 

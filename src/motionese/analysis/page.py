@@ -37,7 +37,8 @@ def page(
     if results:
         question, answer = mochizuki2013.QUESTION, [mochizuki2013.answer(measures), *warned]
     departures = groupby(mochizuki2013.departures() if results else (), lambda d: d.heading)
-    tables = ["loops", *data.novel, "slow_state_map", "map_numbers", "development", "effects"]
+    tables = ["loops", *data.novel, "online", "switches", "slow_state_map", "map_numbers"]
+    tables += ["development", "effects"]
     tables += ["claims", "runs"] if results else ["runs"]
     shown: dict[str, list[tuple[str, str, Markup]]] = {}
     for f in figures:
@@ -60,6 +61,7 @@ def page(
         last_loops=LAST_LOOPS,
         effects=page_tables.effects_rows(effects),
         errors=page_tables.errors_table(measures, data),
+        online=page_tables.online_table(data),
         map=page_tables.map_table(numbers, data),
         warnings=warned,
         success=page_tables.success_table(data),

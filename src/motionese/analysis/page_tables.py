@@ -10,8 +10,11 @@ from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import SEGMENTS, level_names
 from motionese.analysis.seed_measures import Measures, last_loops
 from motionese.analysis.statistics import Estimate, estimate
+from motionese.analysis.while_shown import AT_ONCE, KINDS
 from motionese.task import Outcome
 
+MIDDLE = (2,)
+"""Lags that the page tells of, beside the first and the last."""
 TESTED = ["mean [95 %]", "p", "d", "seeds"]
 
 
@@ -65,6 +68,29 @@ def success_table(data: ExperimentData) -> Table:
             cells = [_achieved(p[p["condition"] == name], outcome) for p in parts.values()]
             rows.append([name, outcome.title, *cells])
     return Table(["condition", "what", *parts], rows)
+
+
+def online_table(data: ExperimentData) -> Table:
+    """Return the errors [cm] of imitation while watching, and how soon a turn is noticed."""
+    online, lags = data.online, sorted(data.online["lag"].unique())
+    shown = [(kind, lag) for kind in KINDS for lag in sorted({*lags[:1], *lags[-1:], *MIDDLE})]
+    shown = [(kind, lag) for kind, lag in shown if lag in lags]
+    head = ["condition", *(f"{'taught' if k else 'new'}, lag {lag}" for k, lag in shown)]
+    head += ["new, from the repertoire", f"turns noticed within {AT_ONCE} rows", "median [rows]"]
+    rows = []
+    for name in data.looks:
+        own = online[online["condition"] == name]
+        cells = [_by_seed(own[(own["taught"] == k) & (own["lag"] == lag)]) for k, lag in shown]
+        new, turns = (t[t["condition"] == name] for t in (data.new_sequences, data.switches))
+        cells.append(_by_seed(new, "repertoire_imitation_error_cm") if len(new) else NONE)
+        steps = turns["steps"].astype(float)
+        at_once = f"{(steps <= AT_ONCE).sum()} of {len(turns)}" if len(turns) else NONE
+        rows.append([name, *cells, at_once, number(float(steps.median()), 0)])
+    return Table(head, rows)
+
+
+def _by_seed(rows: pd.DataFrame, column: str = "imitation_error_cm") -> str:
+    return _over_seeds(rows.groupby("seed")[column].mean().astype(float))
 
 
 def map_table(numbers: pd.DataFrame, data: ExperimentData) -> Table:

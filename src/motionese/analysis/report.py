@@ -54,6 +54,7 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
     tables = {"loops": data.loops, "development": data.development, **data.novel}
     tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
+    tables |= {"online": data.online, "switches": data.switches}
     tables |= {"runs": data.runs, "effects": found}
     tables |= {"claims": claims_table(results)} if results else {}
     try:

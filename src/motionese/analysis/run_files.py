@@ -21,10 +21,10 @@ from motionese.errors import RunFolderError
 from motionese.experiment.run import ENDED, Run
 
 ENDINGS = ("finished", "diverged")
-WHOLE_NUMBERS = ("seed", "loop", "phase", "levels")
+WHOLE_NUMBERS = ("seed", "loop", "phase", "levels", "lag")
 KEPT = ("activity", "commanded", "sensed", "begins", "poses")
 """What `inside.npz` holds beside paths and effects."""
-WORDS = ("condition", "motion", "primitive", "status")
+WORDS = ("condition", "motion", "primitive", "status", "repertoire_status", "first", "second")
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 
@@ -122,7 +122,7 @@ def _check_columns(table: pd.DataFrame, columns: Sequence[str]) -> None:
 def _fits(column: str, values: "pd.Series[Any]") -> bool:
     if column in WORDS:
         return bool(values.notna().all())
-    if column == "trained":
+    if column in ("trained", "taught"):
         return values.dtype.kind == "b"
     return values.dtype.kind in ("i" if column in WHOLE_NUMBERS else "iuf")
 

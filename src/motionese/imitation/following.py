@@ -56,8 +56,7 @@ def follow(
     for now in range(len(results) - 1 + lag):
         known = results[min(now, len(results) - 1)]
         row = now + 1 - lag  # of the demonstration
-        rows = np.concatenate([known.path, known.ahead])
-        expected = rows[max(len(known.path) - 1 + row - known.row, 0)]
+        expected = known.expected(row)
         trial.think(expected, known.potentials)
         trial.step(expected[scene.joints] if row > 0 else trial.commanded[-1])
     return trial.performance()

@@ -8,9 +8,11 @@ import numpy as np
 from numpy import ndarray
 
 from motionese.errors import ControlError
+from motionese.runtime.belief import NONE
 from motionese.runtime.limits import Limiter, Limits
 from motionese.runtime.loop_report import SENTENCES, Ending, LoopReport
 from motionese.runtime.model import Reading, RuntimeModel, row_of
+from motionese.runtime.online_recognition import OnlineRecognition
 from motionese.runtime.player import Player, Share, shares
 from motionese.runtime.schedule import Part, ScheduledPart, schedule
 from motionese.runtime.timing import Clock, Once, Pace, Watchdog
@@ -94,10 +96,36 @@ class ControlLoop:
                 of a running loop is raised.
         """
         scheduled = schedule(self.model, parts)
+        return self._ran(lambda run: run.play(scheduled))
+
+    def follow(self, recognition: OnlineRecognition, steps: int, *, lag: int = 2) -> LoopReport:
+        """Follow a motion while it is shown, so many rows behind it.
+
+        What `sense` returns are readings of the demonstration, beside those of the robot's own
+        joints. A cycle recognises it by the reading and sends the row that was, or will be, due.
+        While what is shown is most likely none of the learned motions, the robot holds still.
+
+        Args:
+            recognition: With the same model; it has observed nothing yet.
+            steps: Cycles until it ends.
+            lag: Rows that the robot is behind; with 0 it sends what is predicted.
+
+        Raises:
+            ControlError: Another model, a lag below 0, no row ahead for a lag of 0, or as of `run`.
+        """
+        if recognition.model is not self.model:
+            raise ControlError("the loop and its recognition must have the same model")
+        if lag < 0 or steps < 0:
+            raise ControlError(f"lag and steps must be 0 or more, got {lag} and {steps}")
+        if lag == 0 and recognition.ahead == 0:
+            raise ControlError("a lag of 0 sends what is predicted: recognise with ahead ≥ 1")
+        return self._ran(lambda run: run.follow(recognition, steps, lag))
+
+    def _ran(self, how: Callable[["_Run"], LoopReport]) -> LoopReport:
         stop = Once(self.stop)
         with Watchdog(self.watchdog_s, stop) as watchdog:
             try:
-                report = _Run(self, watchdog, self._asked_to_end).play(scheduled)
+                report = how(_Run(self, watchdog, self._asked_to_end))
             except BaseException:
                 stop()
                 raise
@@ -121,7 +149,14 @@ class _Run:
 
     def play(self, parts: list[ScheduledPart]) -> LoopReport:
         """Play the parts and tell how it went."""
-        ending, patience = self._play(parts), self._loop.watchdog_s
+        return self._report(self._play(parts))
+
+    def follow(self, recognition: OnlineRecognition, steps: int, lag: int) -> LoopReport:
+        """Follow what is shown and tell how it went."""
+        return self._report(self._follow(recognition, steps, lag))
+
+    def _report(self, ending: Ending) -> LoopReport:
+        patience = self._loop.watchdog_s
         return LoopReport(
             steps=self._steps,
             missed=self._pace.missed,
@@ -133,7 +168,8 @@ class _Run:
             sentence=SENTENCES[ending].format(steps=self._steps, patience=patience),
         )
 
-    def _play(self, parts: list[ScheduledPart]) -> Ending:
+    def _placed(self) -> ndarray | Ending:
+        """Return the first reading, or why none came; nothing is sent until then."""
         reading = self._sensed()
         while not np.isfinite(reading).any():
             if ending := self._over():
@@ -141,6 +177,31 @@ class _Run:
             self._pace.done()
             reading = self._sensed()
         self._limiter.check_start(reading)
+        return reading
+
+    def _follow(self, recognition: OnlineRecognition, steps: int, lag: int) -> Ending:
+        reading = self._placed()
+        if isinstance(reading, Ending):
+            return reading
+        for _ in range(steps):
+            if self._steps:
+                reading = self._sensed()
+            if ending := self._over():
+                return ending
+            known = recognition.observe(reading)
+            row = known.expected(known.row + 1 - lag)
+            if not np.isfinite(row).all():
+                return Ending.NOT_FINITE
+            if self._steps == 0:
+                self._before = np.where(np.isfinite(reading), reading, row)
+            holds = known.likeliest == NONE or known.row + 1 <= lag
+            self._send(self._before if holds else row)
+        return Ending.HUNG if self._watchdog.barked else Ending.DONE
+
+    def _play(self, parts: list[ScheduledPart]) -> Ending:
+        reading = self._placed()
+        if isinstance(reading, Ending):
+            return reading
         model = self._loop.model
         player = Player(model, model.begin(parts[0].start, reading), self._loop.share)
         self._before = np.where(np.isfinite(reading), reading, player.row)
@@ -176,15 +237,18 @@ class _Run:
 
     def _acted(self, player: Player, reading: ndarray) -> Ending | None:
         """End a cycle: send the next row, unless it is not finite."""
-        model = self._loop.model
-        row = player.step_unit(model.to_unit(reading))
+        row = player.step_unit(self._loop.model.to_unit(reading))
         if not player.finite:
             return Ending.NOT_FINITE
+        self._send(row)
+        return None
+
+    def _send(self, row: ndarray) -> None:
+        """Send a row [D], held within the limits, and end the cycle."""
         self._before = self._limiter.limit(row, self._before)
-        self._loop.act(dict(zip(model.channels, self._before.tolist(), strict=True)))
+        self._loop.act(dict(zip(self._loop.model.channels, self._before.tolist(), strict=True)))
         self._steps += 1
         self._pace.done()
-        return None
 
 
 def _agreed_rate(model: RuntimeModel, rate_hz: float | None) -> float:

@@ -64,6 +64,15 @@ class OnlineResult:
         """The motion that is believed in most, or `NONE`."""
         return max(self.belief, key=self.belief.__getitem__)
 
+    def expected(self, row: int) -> ndarray:
+        """Return a row as the network generates it, in the channels' units: seen, or to come. [D]
+
+        One beyond what is looked at, or predicted, is the first or the last of these.
+        """
+        place = len(self.path) - 1 + row - self.row
+        rows = [*self.path, *self.ahead]
+        return np.asarray(rows[min(max(place, 0), len(rows) - 1)])
+
 
 class OnlineRecognition:
     """Recognises a motion while it happens, in a window that slides (error regression).
@@ -75,6 +84,7 @@ class OnlineRecognition:
 
     Attributes:
         model: The model.
+        ahead: Rows that are predicted.
         postponed: Steps that did not fit into the budget and were left for the next reading.
         late: Readings that were left out, since their row was no longer looked at.
     """
@@ -116,7 +126,7 @@ class OnlineRecognition:
         names = dict.fromkeys(model.channels if observed is None else observed, True)
         self.model, self.postponed, self.late = model, 0, 0
         self._seen = np.array(model.per_channel("observed", names, False), dtype=bool)
-        self._steps, self._ahead, self._accuracy = steps, ahead, accuracy
+        self._steps, self.ahead, self._accuracy = steps, ahead, accuracy
         self._budget_s = np.inf if budget_ms is None else budget_ms / 1000
         self._step_s, self._told = 0.0, False
         self._regression = ErrorRegression(model, BOUND)
@@ -181,7 +191,7 @@ class OnlineRecognition:
             np.copyto(self._window[place], sensed, where=np.isfinite(sensed))
 
     def _linearised(self, u: ndarray) -> Linearised:
-        coming = np.full((self._ahead, len(self._seen)), np.nan)
+        coming = np.full((self.ahead, len(self._seen)), np.nan)
         rows = np.concatenate([np.array(self._window), coming])
         return self._regression.linearised(self._regression.begun(u, rows[0]), rows)
 
