@@ -7,7 +7,7 @@ import pytest
 from small_models import Clock
 
 from motionese.errors import ControlError
-from motionese.runtime import ControlLoop, Ending, Limits, Part, Player
+from motionese.runtime import ControlLoop, Ending, Limits, OnlineRecognition, Part, Player
 from motionese.runtime.schedule import schedule
 
 HERE = {"lift": 0.4, "turn": -20.0, "grip": 0.5}
@@ -264,3 +264,52 @@ def test_parts_that_cannot_be_played_are_refused_before_anything_is_sent(
     with pytest.raises(ControlError, match=match):
         loop_of(model, robot).run(*parts)
     assert (robot.sent, robot.stops) == ([], 0)
+
+
+def shown(model, name):
+    """Readings of a learned motion while somebody shows it."""
+    player = Player(model, model.begin(name))
+    rows = [player.row, *(player.step() for _ in range(39))]
+    return [dict(zip(model.channels, row.tolist(), strict=True)) for row in rows]
+
+
+@pytest.mark.parametrize("lag", [0, 1, 3])
+def test_it_follows_what_is_shown_so_many_rows_behind(model, robot, lag):
+    rows = shown(model, "reach")
+    given = iter(rows)
+    recognition = OnlineRecognition(model, window=12)
+
+    ran = loop_of(model, robot, lambda: next(given)).follow(recognition, 30, lag=lag)
+
+    assert (ran.ending, ran.steps) == (Ending.DONE, 30)
+    due = np.array([list(row.values()) for row in rows])[10 + 1 - lag : 31 - lag]
+    np.testing.assert_allclose(robot.sent[10:], due, atol=0.05 * 135)
+    first = list(rows[0].values())
+    for sent in robot.sent[: max(lag, 1) - 1]:
+        np.testing.assert_allclose(sent, first, rtol=1e-6)
+
+
+def test_it_holds_still_while_nothing_it_knows_is_shown(model, robot):
+    rng = np.random.default_rng(0)
+    strange = rng.uniform((-1.0, -90.0, 0.0), (2.0, 45.0, 1.0), (20, 3))
+    given = iter(strange)
+    loop_of(model, robot, lambda: next(given)).follow(OnlineRecognition(model), 20)
+    assert np.ptp(robot.sent[8:], axis=0).max() == 0
+
+
+def test_it_follows_until_sensors_fall_silent(model, robot):
+    given = iter([*shown(model, "reach")[:5], *[None] * 100])
+    ran = loop_of(model, robot, lambda: next(given)).follow(OnlineRecognition(model), 90)
+    assert ran.ending == Ending.SENSORS_SILENT
+    assert robot.stops == 1
+
+
+def test_what_cannot_be_followed_is_told(model, robot):
+    loop = loop_of(model, robot)
+    with pytest.raises(ControlError, match="must have the same model"):
+        loop.follow(OnlineRecognition(replace(model)), 5)
+    with pytest.raises(ControlError, match="lag and steps must be 0 or more, got -1 and 5"):
+        loop.follow(OnlineRecognition(model), 5, lag=-1)
+    with pytest.raises(ControlError, match="a lag of 0 sends what is predicted"):
+        loop.follow(OnlineRecognition(model, ahead=0), 5, lag=0)
+    assert not robot.sent
