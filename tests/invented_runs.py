@@ -20,7 +20,7 @@ def condition(name):
 def write_settings(root, study=STUDY, **facts):
     """Write the settings of a run folder."""
     settings = study.model_dump(mode="json")
-    facts = {"format": "motionese-run", "version": 2, "settings": settings} | facts
+    facts = {"format": "motionese-run", "version": 3, "settings": settings} | facts
     (root / "settings.json").write_text(json.dumps(facts))
 
 
@@ -58,8 +58,33 @@ def triples_table(condition, seed, rng, error):
             "imitation_error_cm": base, "recognition_residual_cm": base / 2,
             "model_error_cm": base / 2, "buttons_due": 1, "buttons_pressed": 1,
             "press_depth_mm": 9.0, "status": "recognised",
+            "repertoire_imitation_error_cm": 1.5 * base,
+            "repertoire_recognition_residual_cm": base, "repertoire_status": "recognised",
         })  # fmt: skip
     return pd.DataFrame(rows)
+
+
+def online_table(condition, seed, rng, error):
+    rows = []
+    for taught, sequences in ((True, PUSHING_BUTTONS.sequences(2)), (False, NEW_MOTIONS)):
+        for motion in sequences:
+            for lag in range(5):
+                rows.append({
+                    "condition": condition, "seed": seed, "taught": taught, "motion": motion.name,
+                    "lag": lag, "imitation_error_cm": error + 2.0 / (1 + lag) + 0.1 * rng.random(),
+                    "after_the_fact_error_cm": error,
+                })  # fmt: skip
+    return pd.DataFrame(rows)
+
+
+def switches_table(condition, seed):
+    first, second = (each.name for each in PUSHING_BUTTONS.sequences(2)[:2])
+    turns = [(7, 3.0), (18, np.nan)]
+    return pd.DataFrame([
+        {"condition": condition, "seed": seed, "first": first, "second": second, "row": row,
+         "steps": steps}
+        for row, steps in turns
+    ])  # fmt: skip
 
 
 def map_table(condition, seed, rng, turn, points=4):
@@ -90,6 +115,15 @@ def development_table(condition, seed, opens, loops=LOOPS):
     return pd.DataFrame(rows)
 
 
+def belief_arrays(steps):
+    """What a robot believes of a demonstration that turns in row 7, and is noticed 3 rows later."""
+    first, second, other = (each.name for each in PUSHING_BUTTONS.sequences(2)[:3])
+    late = (np.arange(steps) > 9).astype(float)
+    beliefs = {first: 0.9 * (1 - late), second: 0.9 * late, other: 0.05, "none of these": 0.05}
+    arrays = {f"belief.{name}": belief + 0 * late for name, belief in beliefs.items()}
+    return arrays | {"switch": np.array([7.0, 3.0])}
+
+
 def inside_arrays(rng, steps=42):
     t = np.linspace(0, 1, steps)
     arrays = {}
@@ -104,6 +138,7 @@ def inside_arrays(rng, steps=42):
         "begins": np.array([0, 14, 28]),
         "effect.right_button": np.where(abs(t - 0.3) < 0.05, 9.0, 0.0),
         "effect.left_button": 0 * t,
+        **belief_arrays(steps),
         "poses": np.tile([0, 0.4, 0.1, -0.2, 0, 0, 1.3, 1.1, 0.95], (steps, 1)),
     }
 
@@ -129,6 +164,8 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
     }
     if end == "finished":
         tables["triples.csv"] = triples_table(name, seed, rng, error)
+        tables["online.csv"] = online_table(name, seed, rng, error)
+        tables["switches.csv"] = switches_table(name, seed)
         tables["slow_state_map.csv"] = map_table(
             name, seed, rng, TURN[name] if turn is None else turn
         )

@@ -253,7 +253,7 @@ def test_broken_facts(tmp_path, text):
         read_facts(tmp_path)
 
 
-OURS = {"format": "motionese-run", "version": 2}
+OURS = {"format": "motionese-run", "version": 3}
 
 
 @pytest.mark.parametrize(
