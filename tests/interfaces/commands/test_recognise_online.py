@@ -82,13 +82,18 @@ def test_every_motion_is_told_at_its_end(arm):
     assert any(row[3] != "0" for row in cells)
 
 
-def test_gaps_and_missing_channels_are_not_observed(arm):
+@pytest.mark.parametrize("data", ["hand.csv", "masked.npz"])
+def test_gaps_and_missing_channels_are_not_observed(arm, data):
     hand = {n: v[:, 2:] for n, v in arm_motions().items()}
     write_csv("hand.csv", hand, channels=CHANNELS[2:], cell=("lift", 4, 0, ""))
-    recognised("hand.csv", *ONLINE, "--observed", "x", "y")
+    masks = [np.ones_like(values, dtype=bool) for values in hand.values()]
+    masks[0][4, 0] = False  # a value lies there all the same
+    values, channels = list(hand.values()), ("x", "y")
+    Motions.from_arrays(values, channels, 20.0, observed=masks, names=NAMES).write("masked.npz")
+    recognised(data, *ONLINE, "--observed", "x", "y", "--out", "new.csv")
 
     twin = recognise_online(load("arm.safetensors"), observed=["x", "y"], window=10)
-    _, rows = table("hand.online.csv")
+    _, rows = table("new.csv")
     for t, (row, (x, y)) in enumerate(zip(rows["lift"], hand["lift"], strict=True)):
         known = twin.observe({"y": y} if t == 4 else {"x": x, "y": y})
         np.testing.assert_allclose(numbers(row[7:11]), known.ahead[-1], rtol=1e-4)

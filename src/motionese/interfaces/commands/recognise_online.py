@@ -75,12 +75,13 @@ def recognise_online_motions(
 
 def _check_window(source: Path, motions: Motions, window: int) -> None:
     """Refuse a window that a motion does not fill, and a motion of which nothing is seen."""
-    for name, rows, seen in zip(motions.names, motions.lengths, motions.observed, strict=True):
-        if window > rows:
-            raise SettingError(
-                f"{source}: motion '{name}' has {rows} rows, fewer than the window of {window}; "
-                f"take a shorter one, --window {rows} at most"
-            )
+    rows, name = min(zip(motions.lengths, motions.names, strict=True))
+    if window > rows:
+        raise SettingError(
+            f"{source}: motion '{name}' has {rows} rows, fewer than the window of {window}; "
+            f"take a shorter one, --window {rows} at most"
+        )
+    for name, seen in zip(motions.names, motions.observed, strict=True):
         if not seen.any():
             raise MotionError(f"{source}: of motion '{name}' nothing was observed")
 
