@@ -19,11 +19,13 @@ READING = {
     "inspect": ("inspect", "{}", "--plot", "new.svg"),
     "train": ("train", "{}", "--out", "new.safetensors", *SHORT),
     "recognise": ("recognise", "arm.safetensors", "{}", "--initial", "new.json"),
+    "online": ("recognise", "arm.safetensors", "{}", "--out", "new.csv", "--online", "--window=4"),
     "export": ("export", "{}", "--out", "new.csv"),
 }
 """Every command that reads recordings, with a place for the recording."""
 MODELS = {
     "recognise": ("recognise", "{}", "demos.csv", "--initial", "new.json"),
+    "online": ("recognise", "{}", "demos.csv", "--out", "new.csv", "--online", "--window=4"),
     "generate": ("generate", "{}", "--like", "lift", "--out", "new.csv"),
     "onnx": ("export", "{}", "--onnx", "new.onnx"),
 }
@@ -86,7 +88,7 @@ def test_recordings_that_cannot_be_used_are_told(arm, command):
     for name, told in bad_recordings().items():
         if command == "inspect" and name in ("nan.csv", "inf.csv", "one.csv", "flat.csv"):
             continue  # These are shown.
-        if command == "recognise" and name == "flat.csv":
+        if command in ("recognise", "online") and name == "flat.csv":
             continue  # A model has ranges of its own.
         assert refused(*line(READING[command], name)).startswith(told)
 
@@ -165,7 +167,7 @@ def tried(*arguments):
 
 
 @pytest.mark.usefixtures("unchecked")
-@pytest.mark.parametrize("command", ["import", "inspect", "train", "recognise", "export"])
+@pytest.mark.parametrize("command", ["import", "inspect", "train", "recognise", "online", "export"])
 @settings(max_examples=6)
 @given(data=st.data())
 def test_recordings_of_anything(arm, command, data):
@@ -220,6 +222,7 @@ OPTIONS = {
     "import": ("--range", "--unit", "--channels", "--exclude", "--rate", "--resample", "--trim"),
     "train": ("--levels", "--set", "--held-out", "--io-tau", "--patience", "--log", "--seed"),
     "recognise": ("--observed", "--channels", "--seed", "--nan"),
+    "online": ("--observed", "--window", "--ahead", "--log"),
     "generate": ("--like", "--start", "--steps", "--duration-scale", "--blend"),
     "inspect": ("--channels", "--exclude", "--rate", "--format", "--episode", "--time"),
 }
@@ -249,7 +252,7 @@ def damaged(whole: bytes, data) -> bytes:
     return bytes(content) if content else data.draw(st.binary(max_size=100))
 
 
-@pytest.mark.parametrize("command", ["import", "train", "recognise", "generate"])
+@pytest.mark.parametrize("command", ["import", "train", "recognise", "online", "generate"])
 def test_a_full_disk_is_told(arm, monkeypatch, command):
     def full(_):
         raise OSError(errno.ENOSPC, "No space left on device")

@@ -83,6 +83,10 @@ NEEDED = {
         *("tensorboardX", "tensorboardX"),
     ),
     "rerun": ("train data.npz --out new.safetensors --log rerun", "rerun", "rerun-sdk"),
+    "row by row": (
+        "recognise arm.safetensors demos.csv --online --window 10 --log rerun",
+        *("rerun", "rerun-sdk"),
+    ),
     "experiment": ("reproduce", "mujoco", "mujoco-core"),
     "many runs": ("reproduce", "dask", "dask"),
     "report": ("report runs/default", "pandas", "pandas"),
@@ -91,7 +95,7 @@ NEEDED = {
     "page": ("teach --no-browser", "starlette", "starlette"),
 }
 """The command, the module that is not there, the package that would bring it."""
-EXTRA = {"onnxruntime": "onnx", "read hdf5": "hdf5", "page": "web"}
+EXTRA = {"onnxruntime": "onnx", "read hdf5": "hdf5", "page": "web", "row by row": "rerun"}
 EXTRA |= dict.fromkeys(("many runs", "report", "presets"), "experiment")
 
 

@@ -68,6 +68,25 @@ def test_what_is_written_is_read_back(kind, tmp_path):
     assert READERS[kind](tmp_path) == expected
 
 
+def test_another_timeline_and_names_that_no_path_could_hold_are_taken(tmp_path, capfd):
+    with open_logs(["jsonl", "rerun"], tmp_path / "robot.csv", timeline="row") as logs:
+        logs.write(3, {"a b/c [m]": 1.5})
+
+    assert (tmp_path / "robot.log.jsonl").read_text() == '{"row": 3, "a b/c [m]": 1.5}\n'
+    chunks = [c for c in RrdReader(tmp_path / "robot.rrd").stream() if "row" in c.timeline_names]
+    assert [chunk.entity_path.replace("\\", "") for chunk in chunks] == ["/a b/c [m]"]
+    assert chunks[0].to_record_batch().to_pydict()["row"] == [3]
+    assert capfd.readouterr() == ("", "")
+
+
+def test_rows_that_come_fast_are_written_together(tmp_path):
+    with open_logs(["rerun"], tmp_path / "robot.csv", timeline="row") as logs:
+        for row in range(1000):
+            logs.write(row, {"error": 0.5})
+
+    assert (tmp_path / "robot.rrd").stat().st_size < 200_000
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_resumed_training_goes_on_where_it_stood(kind, tmp_path):
     with open_logs([kind], tmp_path / "robot.safetensors") as logs:

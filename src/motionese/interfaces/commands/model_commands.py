@@ -2,12 +2,14 @@
 # ruff: noqa: PLC0415
 
 import os
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 from typer import Argument, Option
 
+from motionese.errors import SettingError
 from motionese.interfaces.commands.exit_status import plainly
 from motionese.interfaces.commands.recording_options import (
     Texts,
@@ -19,6 +21,7 @@ from motionese.interfaces.commands.recording_options import (
 from motionese.one_core import one_core
 
 Model = Annotated[Path, Argument(metavar="MODEL", help="A model that `train` wrote.")]
+ONLINE: dict[str, Any] = {"rich_help_panel": "While it happens"}
 LARGEST_SEED = 2**32 - 1
 """Larger seeds would be cut to 32 bits, and mean the same as smaller ones."""
 
@@ -84,27 +87,67 @@ def recognise(
     ] = None,
     out: Annotated[
         Path | None,
-        Option(metavar="PATH.csv|.npz", help="Write the recognised motions, all channels."),
+        Option(
+            metavar="PATH.csv|.npz",
+            help="Write the recognised motions, all channels; with --online what was known at "
+            "each row (.csv), and its figure beside it; default then: NAME.online.csv here.",
+        ),
     ] = None,
     initial: Annotated[
         Path | None, Option(metavar="FILE.json", help="Write the initial states.")
     ] = None,
     seed: Annotated[int, Option(min=0, max=LARGEST_SEED, help="Of the random starts.")] = 0,
+    online: Annotated[
+        bool, Option("--online", help="Row by row, as a robot that looks on would.", **ONLINE)
+    ] = False,
+    window: Annotated[
+        int | None, Option(metavar="ROWS", help="Rows looked back on; default: 20.", **ONLINE)
+    ] = None,
+    ahead: Annotated[
+        int | None,
+        Option(min=1, max=1000, metavar="ROWS", help="Rows predicted; default: 5.", **ONLINE),
+    ] = None,
+    log: Annotated[
+        Texts,
+        Option(metavar="rerun|jsonl|tensorboard …", help="Logs beside the table.", **ONLINE),
+    ] = None,
 ) -> None:
-    """Find the initial states from which a model generates a motion, from what is observed."""
-    with plainly("stopped; nothing was written") as console:
-        os.environ.update(one_core())
-        from motionese.interfaces.commands.recognise import recognise_motions
+    """Find the initial states from which a model generates a motion, from what is observed.
 
-        recognise_motions(
+    With --online tell instead, at each row, which learned motion is being shown and what follows.
+    """
+    told = "nothing but the log was written" if log else "nothing was written"
+    with plainly(f"stopped; {told}") as console:
+        os.environ.update(one_core())
+        own = {"--window": window, "--ahead": ahead, "--log": log}
+        _check_options(online, {"--initial": initial}, own)
+        seen, read = separated(observed) or None, as_read(**reading)
+        if not online:
+            from motionese.interfaces.commands.recognise import recognise_motions
+
+            recognise_motions(
+                console,
+                model,
+                motion,
+                observed=seen,
+                out=out,
+                initial=initial,
+                seed=seed,
+                reading=read,
+            )
+            return
+        from motionese.interfaces.commands.recognise_online import recognise_online_motions
+
+        recognise_online_motions(
             console,
             model,
             motion,
-            observed=separated(observed) or None,
-            out=out,
-            initial=initial,
-            seed=seed,
-            reading=as_read(**reading),
+            observed=seen,
+            out=out or Path(f"{motion.resolve().stem}.online.csv"),
+            window=20 if window is None else window,
+            ahead=ahead or 5,
+            logs=separated(log),
+            reading=read,
         )
 
 
@@ -161,3 +204,21 @@ def _stopped(model: Path) -> str:
     if checkpoint_of(model).exists():
         return "stopped; the same command with --resume goes on"
     return "stopped; there is no training to go on with"
+
+
+def _check_options(online: bool, whole: Mapping[str, Any], own: Mapping[str, Any]) -> None:
+    """Refuse options that do not belong to how motions are recognised.
+
+    Args:
+        online: Whether they are recognised while they happen.
+        whole: Options of recognising whole motions alone; None where one is not given.
+        own: Options of recognising them while they happen alone; None where one is not given.
+
+    Raises:
+        SettingError: An option of the other.
+    """
+    given = [name for name, value in (whole if online else own).items() if value is not None]
+    if given and online:
+        raise SettingError(f"{given[0]} is not for --online, which finds no initial states")
+    if given:
+        raise SettingError(f"{given[0]} is for recognition row by row alone; add --online")

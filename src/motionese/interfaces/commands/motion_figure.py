@@ -1,7 +1,7 @@
 """Motions drawn: one small panel a channel, time along, every motion a line."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import ceil
 from pathlib import Path
 
@@ -44,13 +44,27 @@ def write_figure(
     Raises:
         StorageError: A file that cannot be written.
     """
+    if len(channels) > MOST:
+        title += f" (the first {MOST} of {len(channels)} channels)"
+    write_drawing(path, "motions", lambda: _figure(paths, names, channels[:MOST], rate_hz, title))
+
+
+def write_drawing(path: Path, name: str, draw: Callable[[], Figure]) -> None:
+    """Draw a figure in the package's style and write it as SVG, or as PNG if `path` ends so.
+
+    Args:
+        path: The file to write.
+        name: What the names within the SVG begin with.
+        draw: Draws it.
+
+    Raises:
+        StorageError: A file that cannot be written.
+    """
     # Names are what they are, dollars included.
     with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
         # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
-        if len(channels) > MOST:
-            title += f" (the first {MOST} of {len(channels)} channels)"
-        drawn = finished(_figure(paths, names, channels[:MOST], rate_hz, title), "motions")
+        drawn = finished(draw(), name)
     try:
         write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
     except OSError as error:

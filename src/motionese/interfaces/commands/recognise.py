@@ -46,7 +46,7 @@ def recognise_motions(
     fit = load(model)
     assert fit.network.channels is not None, "a trained network carries channels"
     names = fit.network.channels.names
-    seen = list(names) if observed is None else _matching(fit.network.channels, observed)
+    seen = list(names) if observed is None else matching_channels(fit.network.channels, observed)
     motions = read_for(fit, source, needed=seen, **reading)
     console.print(f"{source}: looked at {', '.join(seen)}")
     found = _recognised(console, fit, motions.showing(seen), jax.random.key(seed))
@@ -63,8 +63,12 @@ def recognise_motions(
         console.print(f"Recognised motions: {out}")
 
 
-def _matching(channels: Channels, patterns: Sequence[str]) -> list[str]:
-    """Return the model's channels of these names or patterns, in the model's order."""
+def matching_channels(channels: Channels, patterns: Sequence[str]) -> list[str]:
+    """Return the model's channels of these names or patterns, in the model's order.
+
+    Raises:
+        ChannelError: A name or pattern that no channel fits.
+    """
     taken: set[str] = set()
     for pattern in patterns:
         fitting = {n for n in channels.names if n == pattern or fnmatchcase(n, pattern)}

@@ -1,12 +1,16 @@
 """Where training is logged: lines of JSON, TensorBoard, Rerun; several at once if asked for.
 
+Recognition while it happens is logged so too, by rows where training counts epochs.
+
 A log lies beside the model that is trained, OUT: `robot.safetensors` is logged to
 `robot.log.jsonl`, `robot.tensorboard/` and `robot.rrd`. Every number is on disk when `write`
-returns (TensorBoard's within a second), so that a training that is killed leaves what it told.
+returns (TensorBoard's and Rerun's within a second), so that a training that is killed leaves what
+it told.
 """
 
 import json
 import math
+import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
@@ -17,6 +21,9 @@ from typing import Protocol, runtime_checkable
 
 from motionese.errors import SettingError, StorageError, needs, unknown
 from motionese.files import write_whole
+
+FLUSH_EVERY_S = 0.5
+"""How often a Rerun recording is flushed at most."""
 
 
 @runtime_checkable
@@ -56,7 +63,7 @@ class Logs(ExitStack):
             log.write(epoch, numbers)
 
 
-def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
+def open_logs(kinds: Sequence[str], out: Path, after: int = 0, timeline: str = "epoch") -> Logs:
     """Return the logs of a training, whose files are opened with the first numbers.
 
     Args:
@@ -64,6 +71,7 @@ def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
         out: The model's file; logs are called after it and lie beside it.
         after: Epochs that were trained before a training that is resumed: its logs go on, and
             forget what they hold of later epochs. 0 begins them anew.
+        timeline: What is counted, if not epochs.
 
     Raises:
         SettingError: An unknown kind.
@@ -78,14 +86,14 @@ def open_logs(kinds: Sequence[str], out: Path, after: int = 0) -> Logs:
             import_module(module)
         except ImportError as error:
             raise needs(package, kind, f"the log '{kind}'") from error
-    return Logs([partial(_OPENERS[kind], out, after) for kind in dict.fromkeys(kinds)])
+    return Logs([partial(_OPENERS[kind], out, after, timeline) for kind in dict.fromkeys(kinds)])
 
 
 class JsonLines:
     """One JSON object a line: the epoch and the numbers; null where a number is not finite."""
 
-    def __init__(self, out: Path, after: int) -> None:
-        path = out.with_name(f"{out.stem}.log.jsonl")
+    def __init__(self, out: Path, after: int, timeline: str) -> None:
+        path, self._timeline = out.with_name(f"{out.stem}.log.jsonl"), timeline
         kept = _lines_until(path, after) if after and path.exists() else []
         write_whole(path, "".join(kept))
         self._file = path.open("a", encoding="utf-8")
@@ -93,7 +101,7 @@ class JsonLines:
     def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
         """Write one line."""
         finite = {k: float(v) if math.isfinite(v) else None for k, v in numbers.items()}
-        self._file.write(json.dumps({"epoch": epoch} | finite) + "\n")
+        self._file.write(json.dumps({self._timeline: epoch} | finite) + "\n")
         self._file.flush()
 
     def close(self) -> None:
@@ -117,7 +125,7 @@ def _lines_until(path: Path, epoch: int) -> list[str]:
 class TensorBoard:
     """Scalars by name in TensorBoard's event files."""
 
-    def __init__(self, out: Path, after: int) -> None:
+    def __init__(self, out: Path, after: int, timeline: str) -> None:
         # Event files are called after the second they are opened in; the suffix keeps a training
         # resumed within that second from overwriting what it goes on with.
         self._writer = import_module("tensorboardX").SummaryWriter(
@@ -138,10 +146,10 @@ class TensorBoard:
 
 
 class Rerun:
-    """Scalars by name on the timeline `epoch` of a Rerun recording; no viewer is started."""
+    """Scalars by name on a timeline of a Rerun recording; no viewer is started."""
 
-    def __init__(self, out: Path, after: int) -> None:
-        path = out.with_suffix(".rrd")
+    def __init__(self, out: Path, after: int, timeline: str) -> None:
+        path, self._timeline = out.with_suffix(".rrd"), timeline
         # A recording cannot be appended to: what it holds is read, and written to the new one.
         before = _scalars_until(path, after) if after and path.exists() else []
         self._rerun = import_module("rerun")
@@ -151,20 +159,25 @@ class Rerun:
         for epoch, name, number in before:
             self._log(epoch, name, number)
         self._stream.flush()
+        self._flushed = -FLUSH_EVERY_S
 
     def write(self, epoch: int, numbers: Mapping[str, float]) -> None:
         """Write one scalar a number at the epoch."""
         for name, number in numbers.items():
             self._log(epoch, name, number)
-        self._stream.flush()
+        # What is flushed by itself takes a kilobyte a number: rows come by the hundred a second.
+        if time.monotonic() - self._flushed > FLUSH_EVERY_S:
+            self._stream.flush()
+            self._flushed = time.monotonic()
 
     def close(self) -> None:
         """Finish the recording."""
         self._stream.disconnect()
 
     def _log(self, epoch: int, name: str, number: float) -> None:
-        self._stream.set_time("epoch", sequence=epoch)
-        self._stream.log(name, self._rerun.Scalars(number))
+        self._stream.set_time(self._timeline, sequence=epoch)
+        # Given as parts, a name may hold what a path must not: spaces, brackets.
+        self._stream.log([p for p in name.split("/") if p], self._rerun.Scalars(number))
 
 
 def _scalars_until(path: Path, epoch: int) -> list[tuple[int, str, float]]:
@@ -188,7 +201,7 @@ def _scalars_until(path: Path, epoch: int) -> list[tuple[int, str, float]]:
     return scalars
 
 
-_OPENERS: dict[str, Callable[[Path, int], Log]] = {
+_OPENERS: dict[str, Callable[[Path, int, str], Log]] = {
     "jsonl": JsonLines,
     "tensorboard": TensorBoard,
     "rerun": Rerun,
