@@ -20,7 +20,7 @@ from motionese.imitation.learner import (
 )
 from motionese.imitation.loop import Imitation, Row, imitate, imitation_loop, network_row
 from motionese.imitation.measures import path_error_cm, seen_error_cm
-from motionese.imitation.performance import Performance, Watched, babble, perform, watch
+from motionese.imitation.performance import Performance, Record, Watched, babble, perform, watch
 from motionese.imitation.scene import Recordings, Scene
 from motionese.imitation.settings import Group, Settings, checked, setting_names
 
@@ -32,6 +32,7 @@ __all__ = [
     "Learner",
     "LoopDone",
     "Performance",
+    "Record",
     "Recordings",
     "Row",
     "Scene",

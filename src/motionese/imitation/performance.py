@@ -104,7 +104,7 @@ def perform(
         rng: Noise of the sensors and of exploration.
     """
     body.reset(posture, rng)
-    record = _Record(body, posture)
+    record = Record(body, posture)
     now = record.latest(acting.efference_copy, np.full(len(body.channels), 0.5))
     state = np.array(initial_state)
     if network.initial_io == "sensed":
@@ -135,7 +135,7 @@ def babble(
     low, high = body.channels.from_unit(ends)[:, body.channels.indices(body.joints)]
     start, end = rng.uniform(low, high, (2, len(body.joints)))
     body.reset(start, rng)
-    record = _Record(body, start)
+    record = Record(body, start)
     record.think(record.sensed[0], np.zeros(0))
     for row in range(1, steps):
         share = float(minimum_jerk(np.array(min(row / stroke_steps, 1.0))))
@@ -144,10 +144,11 @@ def babble(
     return record.performance()
 
 
-class _Record:
+class Record:
     """The rows of a trial, from its posture on."""
 
     def __init__(self, body: SimulatedRobot, posture: Float[ndarray, " J"]) -> None:
+        """Begin with the row that a body senses after `reset` to a posture [rad]."""
         self.body = body
         self.joints = tuple(int(i) for i in body.channels.indices(body.joints))
         self.sensed = [body.sense()]
