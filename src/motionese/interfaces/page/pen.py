@@ -19,7 +19,7 @@ from motionese.teaching.recogniser import start_of
 from motionese.teaching.session import Teaching
 from motionese.teaching.view import View
 
-EVERY_S = 0.05
+EVERY_S = 0.04
 """What is understood is told at most so often."""
 
 
