@@ -30,7 +30,7 @@ except ImportError as error:
 
 MOTIONS = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑", "UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑")
 STROKE_S, STARTS = 1.2, 5
-VERDICT_S, UNDERSTOOD_HZ, USABLE_S, ARRIVED = 0.5, 5.0, 3.0, 0.95
+VERDICT_S, UNDERSTOOD_HZ, USABLE_S, ARRIVED = 0.5, 15.0, 3.0, 0.95
 
 
 def at_the_page(browser: Browser, address: str) -> Person:

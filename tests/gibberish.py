@@ -32,6 +32,7 @@ near = some.fixed_dictionaries(
         "take": some.booleans(),
         "session": some.text(max_size=5),
         "source": some.sampled_from(["drawn", "webcam", "scripted"]),
+        "follow": some.booleans(),
     },
 )
 messages = some.one_of(
@@ -44,9 +45,15 @@ messages = some.one_of(
 drawn = some.tuples(some.floats(0, 3e4), some.floats(-1, 2), some.floats(-1, 2))
 right = some.one_of(
     some.builds(
-        lambda phase, points: {"type": "pen", "phase": phase, "points": sorted(points)},
+        lambda phase, points, follow: {
+            "type": "pen",
+            "phase": phase,
+            "points": sorted(points),
+            "follow": follow,
+        },
         some.sampled_from(["down", "move", "up"]),
         some.lists(drawn, max_size=30),
+        some.booleans(),
     ),
     some.builds(
         lambda motion: {"type": "demonstrate", "motion": motion},

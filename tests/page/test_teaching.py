@@ -17,6 +17,19 @@ def test_the_robot_moves_on_the_canvas(person):
     assert changed(before, person.sees("robot")) > 0.004
 
 
+def test_the_arm_follows_the_pen_and_the_page_shows_what_is_believed(person):
+    belief = person.page.get_by_test_id("belief")
+    before, frames = person.sees("robot"), person.state()["frames"]
+    person.page.get_by_test_id("follow").check()
+    person.draws("UR ↓")
+    assert person.until(lambda state: state["frames"] > frames + 10)["drawing"]
+    assert "none of these" in belief.text_content() and belief.locator("li").count() > 1
+    assert changed(before, person.sees("robot")) > 0.004
+    person.page.mouse.up()
+    person.until(lambda state: state["step"] == "judged")
+    assert belief.is_hidden()
+
+
 @pytest.mark.slow
 def test_a_newborn_learns_and_grows_and_is_found_again(parent):
     parent.shows("UL ↓")

@@ -109,21 +109,6 @@ def test_growth_compares_the_same_imitations(teaching, draw):
     assert drawn.motion("../../etc", (0.0, 1.0)) is None
 
 
-def test_a_long_motion_is_followed_in_a_sliding_window(teaching, draw):
-    path, before = draw("UR ↓↑←↓"), None
-
-    def watched(part):
-        return teaching.watch(Demonstration(part, (0,)))
-
-    for rows in range(5, len(path), 6):
-        before = teaching.recogniser.so_far(watched(path[:rows]), before)
-        assert len(before.path) == rows and np.isfinite(before.path).all()
-    assert before.begin == rows - 42
-    unheard = teaching.recogniser.so_far(watched(path), None)
-    assert len(unheard.path) == len(path), "also when all comes at once"
-    assert teaching.recogniser.so_far(watched(path[:2]), None) is None, "too early"
-
-
 def test_a_film_holds_every_body_twenty_times_a_second(teaching, draw):
     teaching.show(draw("UR ↓"), "drawn")
     performance, network = teaching.imitate().performance, teaching.learner.network

@@ -21,7 +21,7 @@ from motionese.imitation.learner import (
 )
 from motionese.imitation.loop import Imitation, Row, imitate, imitation_loop, network_row
 from motionese.imitation.measures import path_error_cm, seen_error_cm
-from motionese.imitation.performance import Performance, Watched, babble, perform, watch
+from motionese.imitation.performance import Performance, Trial, Watched, babble, perform, watch
 from motionese.imitation.scene import Recordings, Scene
 from motionese.imitation.settings import Group, Settings, checked, setting_names
 from motionese.imitation.switching import Switch, sequence_of, switched
@@ -41,6 +41,7 @@ __all__ = [
     "Settled",
     "Stage",
     "Switch",
+    "Trial",
     "Until",
     "Watched",
     "babble",

@@ -78,7 +78,6 @@ class Scene:
         self,
         values: Sequence[Float[ndarray, "_ D"]],
         *,
-        own_arm: bool = True,
         names: Sequence[str] | None = None,
     ) -> Motions:
         """Return what is recognised of demonstrations: all but the joints, these in the first row.
@@ -87,13 +86,11 @@ class Scene:
 
         Args:
             values: The channels' values of every demonstration, see `as_own`.
-            own_arm: Whether the first row's joints are where the own arm will start from; if not,
-                as when a demonstration is looked at from its middle on, they are not known at all.
             names: The demonstrations' names.
         """
         masks = [np.isfinite(value) for value in values]
         for mask in masks:
-            mask[int(own_arm) :, self.joints] = False
+            mask[1:, self.joints] = False
         return Motions.from_arrays(
             values, self.body.channels, self.body.rate_hz, observed=masks, names=names
         )

@@ -129,19 +129,17 @@ class Teaching:
         path: Float[ndarray, "T 3"],
         source: Source,
         drawn: Float[ndarray, "R 3"] | None = None,
-        before: Interpretation | None = None,
     ) -> Observation:
         """Show a motion: it is recognised, judged, and noted in the notebook.
 
         Args:
             path: The hand's path [m, world] at the robot's tempo.
             drawn: The hand's path as it was drawn in time, where that differs.
-            before: What was understood while it was drawn.
         """
         task, notebook = self.scene.task, self.notebook
         demonstration = segmented(path, sequence_in(path, task), task)
         watched = self.watch(demonstration)
-        interpretation = self.recogniser.at_the_end(watched, before)
+        interpretation = self.recogniser.at_the_end(watched)
         known = {e.motion for e in self.learner.experiences}
         verdict = verdict_on(watched.path, interpretation.path, task, known)
         sequence = verdict.shown or verdict.recognised
@@ -252,7 +250,9 @@ class Teaching:
         """Let everything be compiled that a drawing asks for, by what nobody sees."""
         sequence, rng = self.scene.task.sequences(1)[0], generator_for(0, "warming")
         watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
-        state = self.recogniser.at_the_end(watched, self.recogniser.so_far(watched, None)).state
+        state = self.recogniser.at_the_end(watched).state
+        if (online := self.recogniser.online()) is not None:
+            online.observe(watched)
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
 
     def _become(self, learner: Learner) -> None:

@@ -120,6 +120,7 @@ WRONG = {
     "negative time": POINT % "-1, 0.5, 0.5",
     "text": POINT % '0, "0.5", 0.5',
     "true": POINT % "0, true, 0.5",
+    "follow": {**DOWN, "follow": 1},
     "two numbers": POINT % "0, 0.5",
     "many points": pen("down", [(0, 0.5, 0.5)] * (MOST_POINTS + 1)),
     "many bytes": POINT % ("0, 0.5, 0." + "5" * MOST_BYTES),

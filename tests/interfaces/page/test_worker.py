@@ -93,8 +93,8 @@ def draw_with():
     def drawn(robot, name):
         for message in strokes(name):
             points = [tuple(point) for point in message["points"]]
-            said = {**message, "points": points, "source": "drawn", "received": time.monotonic()}
-            robot.take(said)
+            more = {"source": "drawn", "follow": False, "received": time.monotonic()}
+            robot.take({**message, "points": points, **more})
 
     return drawn
 

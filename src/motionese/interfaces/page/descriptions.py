@@ -14,10 +14,12 @@ from motionese.imitation import Scene
 from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
+from motionese.runtime.belief import NONE
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.frames import Film
 from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.notebook import Entry
+from motionese.teaching.online_recogniser import Understanding
 from motionese.teaching.session import Change, Observation, Teaching, Trial
 from motionese.teaching.view import ASPECT, View
 
@@ -139,6 +141,25 @@ def verdict_message(observed: Observation, view: View, seconds: float) -> Answer
     }
 
 
+def understanding_message(
+    understood: Understanding, start: str, view: View, milliseconds: int
+) -> Answer:
+    """Return what is understood, so late in a drawing, of a motion that began at a place."""
+    likeliest, belief = understood.likeliest, understood.belief
+    known = likeliest != NONE
+    return {
+        "type": "understanding",
+        "t_ms": milliseconds,
+        "arrows": likeliest if known else start,
+        "confidence": round(belief[likeliest], DIGITS) if known else 0.0,
+        "belief": [
+            {"motion": motion, "share": round(share, DIGITS)} for motion, share in belief.items()
+        ],
+        "path": listed(view.of_points(understood.path)),
+        "next": listed(view.of_points(understood.next)),
+    }
+
+
 def shown_message(motion: str, seen: Float[ndarray, "T 2"], step_ms: float) -> Answer:
     """Return how the scripted caregiver shows a motion, seen in the view."""
     path = [[round(step_ms * row), *place] for row, place in enumerate(listed(seen))]
@@ -158,14 +179,18 @@ def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -
     }
 
 
-def frames_message(played: Film, tell: Tell) -> Iterator[float]:
+def frames_message(played: Film, begin: int, end: int, last: bool) -> Answer:
+    """Return some frames of a film; `last` says that no more follow."""
+    frames = {"from": begin, "rate_hz": played.rate_hz, "last": last}
+    return {"type": "frames", **frames, **played.part(begin, end)}
+
+
+def show_film(played: Film, tell: Tell) -> Iterator[float]:
     """Send a film part by part; yields how long [s] to wait before the next."""
     size = round(PART_S * played.rate_hz)
     began = time.monotonic()
     for row in range(0, len(played), size):
-        last = row + size >= len(played)
-        frames = {"from": row, "rate_hz": played.rate_hz, "last": last}
-        tell({"type": "frames", **frames, **played.part(row, row + size)})
+        tell(frames_message(played, row, row + size, row + size >= len(played)))
         yield max(0.0, began + (row + size) / played.rate_hz - time.monotonic())
 
 

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 MOST_BYTES = 64 * 1024
 """Of one message."""
 MOST_POINTS = 512
-"""Of one message; a pen of 1000 Hz has 50 in a batch."""
+"""Of one message; a pen of 1000 Hz has 40 in a batch."""
 MOST_A_SECOND, MOST_AT_ONCE = 60.0, 120.0
 """Messages."""
 
@@ -44,12 +44,13 @@ class Hello(Said):
 
 
 class Pen(Said):
-    """Points of a drawing."""
+    """Points of a drawing; `follow`, as the pen is set down: the robot's arm is to follow it."""
 
     type: Literal["pen"]
     phase: Literal["down", "move", "up"]
     points: Annotated[list[Point], Field(max_length=MOST_POINTS)]
     source: Literal["drawn", "webcam"] = "drawn"
+    follow: bool = False
 
 
 class Demonstrate(Said):

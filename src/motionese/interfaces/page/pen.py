@@ -3,50 +3,54 @@
 import time
 from contextlib import suppress
 
-import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.caregiver import Demonstration, sequence_in
-from motionese.imitation import path_error_cm
-from motionese.interfaces.page.descriptions import listed
+from motionese.body import Geometry
+from motionese.caregiver import Demonstration
+from motionese.interfaces.page.descriptions import frames_message, understanding_message
 from motionese.interfaces.page.messages import Tell
 from motionese.teaching.drawing import Drawing, DrawingError, at_tempo
+from motionese.teaching.following import Following
+from motionese.teaching.frames import film
 from motionese.teaching.notebook import Source
-from motionese.teaching.recogniser import Interpretation, start_of
+from motionese.teaching.online_recogniser import OnlineRecogniser, Understanding
+from motionese.teaching.recogniser import start_of
 from motionese.teaching.session import Teaching
-from motionese.teaching.verdict import SPREAD_CM
 from motionese.teaching.view import View
 
-EVERY_S = 0.1
+EVERY_S = 0.04
 """What is understood is told at most so often."""
 
 
 class Pen:
     """One drawing at a time."""
 
-    def __init__(self, teaching: Teaching, view: View, tell: Tell) -> None:
-        """Draw in a view, for a robot; `tell` gets what it understands."""
-        self._teaching, self._view, self._tell = teaching, view, tell
+    def __init__(self, teaching: Teaching, view: View, geometry: Geometry, tell: Tell) -> None:
+        """Draw in a view, for a robot; `tell` gets what it understands, and the arm's frames."""
+        self._teaching, self._view, self._geometry, self._tell = teaching, view, geometry, tell
         self._drawing: Drawing | None = None
         self.source: Source = "drawn"
         self._new, self._told_at = False, 0.0
-        self._name = ""
-        self.understood: Interpretation | None = None
+        self._online: OnlineRecogniser | None = None
+        self._follows, self._frames = False, 0
+        self._following: Following | None = None
 
     @property
     def down(self) -> bool:
         """Whether something is being drawn."""
         return self._drawing is not None
 
-    def set_down(self, source: Source) -> None:
-        """Begin a drawing."""
+    def set_down(self, source: Source, follow: bool = False) -> None:
+        """Begin a drawing; the robot's arm may follow it."""
         self._drawing, self.source = Drawing(), source
         self.begin()
+        self._follows = follow
 
     def begin(self) -> None:
         """Forget what was understood of the motion before."""
-        self.understood, self._name = None, ""
+        self._online = self._teaching.recogniser.online()
+        self._follows, self._following, self._frames = False, None, 0
 
     def move(self, points: list[tuple[float, float, float]]) -> None:
         """Draw on."""
@@ -75,28 +79,33 @@ class Pen:
 
     def tell_understood(self, path: Float[ndarray, "T 3"], milliseconds: int) -> None:
         """Tell what the robot understands of a path [m, world] so far."""
-        teaching = self._teaching
-        watched = teaching.watch(Demonstration(path, (0,)))
-        understood = teaching.recogniser.so_far(watched, self.understood)
-        if understood is None:
+        if self._online is None:
             return
-        self.understood = understood
-        apart = path_error_cm(understood.path, watched.path)
-        # In the middle of a primitive a path is no sequence: what was completed before stands.
-        task = teaching.scene.task
-        sequence = sequence_in(understood.path, task)
-        self._name = sequence.name if sequence else self._name or start_of(path, task).start
-        self._tell(
-            {
-                "type": "understanding",
-                "t_ms": milliseconds,
-                "arrows": self._name,
-                # How well what is understood fits what was seen, by the spread of the verdict.
-                "confidence": round(float(np.exp(-((apart / SPREAD_CM) ** 2) / 2)), 4),
-                "path": listed(self._view.of_points(understood.path)),
-                "next": listed(self._view.of_points(understood.next)),
-            }
-        )
+        teaching = self._teaching
+        understood = self._online.observe(teaching.watch(Demonstration(path, (0,))))
+        if not understood:
+            return
+        start = start_of(path, teaching.scene.task).start
+        self._tell(understanding_message(understood[-1], start, self._view, milliseconds))
+        if self._follows:
+            self._follow(understood, start)
+
+    def _follow(self, understood: list[Understanding], start: str) -> None:
+        """Let the arm do what was understood."""
+        if self._following is None:
+            self._following = Following(self._teaching.scene, start, understood[0])
+        for each in understood:
+            self._following.follow(each)
+        self._show_arm(self._following, last=False)
+
+    def _show_arm(self, following: Following, last: bool) -> None:
+        """Tell the frames of the arm's motion that are new."""
+        teaching = self._teaching
+        network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
+        made = film(self._geometry, network, following.performance, rate_hz)
+        begin, self._frames = self._frames, len(made)
+        if begin < len(made):
+            self._tell(frames_message(made, begin, len(made), last))
 
     def finished(self) -> tuple[Float[ndarray, "T 3"], Float[ndarray, "R 3"], str]:
         """End the drawing; return the hand's path, the same in its own time, and a hint or "".
@@ -105,6 +114,9 @@ class Pen:
             DrawingError: It is too short or too long.
         """
         drawing, self._drawing, self._new = self._drawing, None, False
+        if self._following is not None:
+            self._following.catch_up()
+            self._show_arm(self._following, last=True)
         if drawing is None or len(drawing) < 2:
             raise DrawingError("That was very short: draw from one place to another.")
         path, drawn, strayed = self._shown(drawing)

@@ -71,7 +71,7 @@ class Robot:
 
     def _become(self, teaching: Teaching) -> None:
         self.teaching = teaching
-        self.pen = Pen(teaching, self._view, self._tell)
+        self.pen = Pen(teaching, self._view, self._geometry, self._tell)
         self._map: InteractiveMap | None = None
 
     def introduce(self) -> None:
@@ -137,7 +137,7 @@ class Robot:
 
     def _draw(self, message: dict[str, Any]) -> None:
         if message["phase"] == "down":
-            self.pen.set_down(message["source"])
+            self.pen.set_down(message["source"], message["follow"])
         self.pen.move(message["points"])
         if message["phase"] == "up" and self.pen.down:
             hint = ""
@@ -154,7 +154,7 @@ class Robot:
     def _show(
         self, path: Float[ndarray, "T 3"], drawn: Float[ndarray, "R 3"], source: Source, end: float
     ) -> None:
-        observed = self.teaching.show(path, source, drawn, self.pen.understood)
+        observed = self.teaching.show(path, source, drawn)
         self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - end))
         self._save()
 
@@ -197,7 +197,7 @@ class Robot:
         self._save()
         network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
         played = film(self._geometry, network, trial.performance, rate_hz)
-        yield from descriptions.frames_message(played, self._tell)
+        yield from descriptions.show_film(played, self._tell)
         path = self._view.of_points(trial.performance.path)
         self._tell(descriptions.performed_message(entry, trial, path))
 

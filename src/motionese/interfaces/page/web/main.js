@@ -1,5 +1,6 @@
 // The page: what arrives goes to the parts that show it, what a person does goes to the robot.
 
+import { showBelief } from "./belief.js";
 import { Curve } from "./charts.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
 import { onScheme, part, say } from "./dom.js";
@@ -45,6 +46,8 @@ const send = (message) => live.send(message);
 const view = new View({ ground: part("ground"), ink: part("ink"), surface: part("surface") });
 const ghost = new Ghost(view, new Pace(24));
 const stage = new Stage(() => view.refresh());
+/** Whether the robot's arm follows the pen. */
+const follows = () => part("follow").checked;
 const curve = new Curve(part("chart-curve"));
 const map = new SlowMap(
   part("map"),
@@ -57,6 +60,7 @@ const showing = new Showing(view, {
     if (canWatch() && now.session.busy) tell("One moment: the robot is busy. You can press Stop.");
     return canWatch() && !now.session.busy;
   },
+  follows,
   send,
   tell,
   began,
@@ -88,6 +92,7 @@ const heard = {
     now.understandings += 1;
     if (!showing.drawing && !ghost.plays) return;
     showUnderstanding(message);
+    showBelief(message.belief);
     view.mark({ recognised: message.path, next: message.next });
   },
   shown({ path }) {
@@ -184,6 +189,7 @@ function touched() {
 function clearResult() {
   Object.assign(now, { verdict: null, pending: null, performed: null, step: "" });
   clearVerdict();
+  showBelief([]);
   view.clearInk();
   view.mark({
     recognised: null,
@@ -200,7 +206,7 @@ function clearResult() {
 function began() {
   clearResult();
   say(part("attempt"), "What the robot does");
-  stage.hold(true);
+  stage.hold(!follows());
   refresh();
 }
 
@@ -216,6 +222,7 @@ function judge() {
   now.pending = null;
   now.step = "judged";
   showVerdict(verdict);
+  showBelief([]);
   view.clearInk();
   view.mark({
     drawn: verdict.drawn,

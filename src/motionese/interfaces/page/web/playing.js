@@ -32,6 +32,9 @@ export class Pace {
   }
 }
 
+/** Frames that a performance may be behind what has arrived, as where it follows a quick pen. */
+const LATE = 4;
+
 /** Plays the poses of a performance as they arrive, in the time they were taken in. */
 export class Player {
   /**
@@ -61,9 +64,11 @@ export class Player {
   }
 
   #step(elapsed) {
-    const row = Math.min(Math.floor((elapsed / 1000) * this.rate), this.poses.length - 1);
+    const newest = this.poses.length - 1;
+    const due = Math.max(Math.floor((elapsed / 1000) * this.rate), newest - LATE);
+    const row = Math.min(due, newest);
     if (!this.held && row !== this.shown) this.#show(row);
-    return !this.complete || row < this.poses.length - 1;
+    return !this.complete || row < newest;
   }
 
   /** Leave a performance whose end will not come. */

@@ -12,8 +12,9 @@ import { Webcam } from "./webcam.js";
 export class Showing {
   /**
    * @param {View} view
-   * @param {object} to - `may()` says whether a motion may be shown now; `send`, `began`, `ended`,
-   *   `touched`, `changed`, `tell` are called as their names say.
+   * @param {object} to - `may()` says whether a motion may be shown now, `follows()` whether the
+   *   robot's arm is to follow it; `send`, `began`, `ended`, `touched`, `changed`, `tell` are called
+   *   as their names say.
    */
   constructor(view, to) {
     Object.assign(this, {
@@ -81,7 +82,7 @@ export class Showing {
   #begin(point, source) {
     if (this.drawing || !this.to.may()) return false;
     this.to.began();
-    this.stroke = new Stroke(this.to.send, source, () => {
+    this.stroke = new Stroke(this.to.send, source, this.to.follows(), () => {
       this.to.tell("That was as long as a motion can be. The robot looks at what it saw.");
       this.#done();
     });

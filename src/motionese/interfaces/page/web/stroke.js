@@ -1,6 +1,6 @@
 // A motion on its way to the robot, from whatever moves: pointer, keyboard or webcam.
 
-const BATCH_MS = 60;
+const BATCH_MS = 40;
 /** The server's limits on a drawing, kept with a margin. */
 const LONGEST_MS = 19_800;
 const MOST_POINTS = 3_950;
@@ -9,14 +9,16 @@ export class Stroke {
   /**
    * @param {(message: object) => boolean} send
    * @param {"drawn"|"webcam"} source
+   * @param {boolean} follow - whether the robot's arm is to follow it.
    * @param {() => void} full - called when the robot cannot take more; the stroke has then ended.
    */
-  constructor(send, source, full) {
+  constructor(send, source, follow, full) {
     this.send = send;
     this.full = full;
     this.points = 0;
     this.ended = false;
     this.source = source;
+    this.follow = follow;
   }
 
   /** Begin at a point [t_ms, x, y]. */
@@ -24,7 +26,8 @@ export class Stroke {
     this.last = this.first = point[0];
     this.points = 1;
     this.waiting = [];
-    this.send({ type: "pen", phase: "down", source: this.source, points: [rounded(point)] });
+    const { source, follow } = this;
+    this.send({ type: "pen", phase: "down", source, follow, points: [rounded(point)] });
   }
 
   /** Add points; times that stand still are moved on by the least that can be told apart. */
