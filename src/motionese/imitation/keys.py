@@ -5,19 +5,23 @@ in pairs; and a run that goes on from a checkpoint needs no random state from be
 """
 
 import zlib
+from functools import reduce
 
 import jax
 import numpy as np
-from jaxtyping import Array
+from jaxtyping import Array, UInt32
 
 
 def key_for(seed: int, *purpose: str | int) -> Array:
     """Return the JAX key of a purpose, such as `("recognition", loop)`."""
-    key = jax.random.key(seed)
-    for part in purpose:
-        number = part if isinstance(part, int) else zlib.crc32(part.encode())
-        key = jax.random.fold_in(key, number)
+    numbers = [p if isinstance(p, int) else zlib.crc32(p.encode()) for p in purpose]
+    key: Array = _folded(jax.random.key(seed), np.array(numbers, dtype=np.uint32))
     return key
+
+
+@jax.jit
+def _folded(key: Array, numbers: UInt32[Array, " P"]) -> Array:
+    return reduce(jax.random.fold_in, numbers, key)
 
 
 def generator_for(seed: int, *purpose: str | int) -> np.random.Generator:

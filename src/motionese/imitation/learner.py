@@ -158,12 +158,13 @@ class Learner:
         """Return initial states of all that it has learned, in every combination of its levels.
 
         Each context level takes its states from the latest experience of one of the motions: the
-        Cf_0 of one beside the Cs_0 of another.
+        Cf_0 of one beside the Cs_0 of another. Nothing learned is a state of 0.
         """
         latest = {e.motion: e.initial_state for e in self.experiences}
         ends = np.cumsum(self.network.sizes)[1:-1]
         levels = zip(*(np.split(state, ends) for state in latest.values()), strict=True)
-        return np.array([np.concatenate(each) for each in product(*levels)])
+        states = [np.concatenate(each) for each in product(*levels) if each]
+        return np.array(states or [np.zeros(self.network.size)])
 
     def grown(self, settings: NetworkSettings, key: Array) -> "Learner":
         """Return the learner with the next level opened, its initial states at 0."""

@@ -3,17 +3,15 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import equinox as eqx
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.body import SimulatedRobot
 from motionese.caregiver import Demonstration
 from motionese.imitation.settings import Acting
 from motionese.minimum_jerk import minimum_jerk
-from motionese.network import MTRNN, rollout
+from motionese.network import MTRNN, stepper
 from motionese.unit_interval import INNER_HIGH, INNER_LOW, logit, sigmoid
 
 
@@ -110,11 +108,9 @@ def perform(
     if network.initial_io == "sensed":
         state[: len(now)] = logit(now)
     trial.think(body.channels.from_unit(now), state)
-    share = 1.0
+    step, share = stepper(network), 1.0
     for _ in range(steps - 1):
-        state = np.asarray(
-            _advance(network, jnp.asarray(state), jnp.asarray(now), jnp.asarray(share))
-        )
+        state = step(state, now, share)
         predicted = sigmoid(state[: len(now)])
         prediction = body.channels.from_unit(predicted)
         trial.think(prediction, state)
@@ -193,12 +189,3 @@ class Trial:
             poses=np.array(self.poses),
             joints=self.joints,
         )
-
-
-@eqx.filter_jit
-def _advance(
-    network: MTRNN, state: Float[Array, " N"], sensed: Float[Array, " D"], share: Float[Array, ""]
-) -> Float[Array, " N"]:
-    """Take one step of equations (1) and (2)."""
-    rows = jnp.stack([sensed, sensed])[None].astype(state.dtype)
-    return rollout(network, state[None], rows, jnp.full_like(rows, share))[0, 1]

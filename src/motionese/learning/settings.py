@@ -91,10 +91,10 @@ class Recognition(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    iterations: int = Field(default=800, ge=1)
+    iterations: int = Field(default=100, ge=1)
     starts: int = Field(default=3, ge=0)
     spread: float = Field(default=0.5, ge=0)
-    optimiser: Optimiser | Literal["least_squares"] = "adam"
+    optimiser: Optimiser | Literal["least_squares"] = "least_squares"
     levels: tuple[str, ...] | None = Field(default=None, min_length=1)
     still: float = Field(default=1e-4, ge=0, lt=1)
     rate: Rate = 0.2

@@ -6,7 +6,7 @@ from motionese.network.mtrnn import MTRNN, InitialIO
 from motionese.network.prediction import Prediction, predict, read_out, variance_of
 from motionese.network.rollout import rollout
 from motionese.network.sensitivity import sensitivities
-from motionese.network.step import step
+from motionese.network.step import step, stepper
 from motionese.network.storage import read_network, write_network
 from motionese.network.wiring import Scale, wiring
 
@@ -23,6 +23,7 @@ __all__ = [
     "rollout",
     "sensitivities",
     "step",
+    "stepper",
     "variance_of",
     "wiring",
     "write_network",

@@ -6,10 +6,14 @@ With ε_i = 1/τ_i, y = sigmoid(u), s what is sensed and m its share of the inpu
     u ← (1 − ε) u + ε (W x + b).
 """
 
+from collections.abc import Callable
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
+from numpy import ndarray
 
 from motionese.network.mtrnn import MTRNN
 
@@ -41,6 +45,30 @@ def step(
     drive, gate = (part.reshape(len(u), tau.size) for part in mixture(sensed, share, tau.size))
     following = advance(u, drive, gate, *per_step(weights, bias, tau))
     return following[:, : network.size].reshape(potentials.shape)
+
+
+def stepper(network: MTRNN) -> Callable[[ndarray, ndarray, float], ndarray]:
+    """Return `step` for one state [N] of a network that is stepped often, such as by a robot.
+
+    What it takes is a state, what is sensed [D], and its share; what it holds of the network is
+    worked out once.
+    """
+    constants = per_step(*widened(network))
+    dtype = constants[0].dtype
+
+    def stepped(potentials: ndarray, sensed: ndarray, share: float) -> ndarray:
+        u, now, part = (np.asarray(value, dtype) for value in (potentials, sensed, share))
+        return np.asarray(_stepped(constants, u, now, part))
+
+    return stepped
+
+
+@jax.jit
+def _stepped(constants: tuple[Array, Array, Array], u: Array, sensed: Array, share: Array) -> Array:
+    units = constants[0].size
+    drive, gate = mixture(sensed, jnp.broadcast_to(share, sensed.shape), units)
+    wide = jnp.pad(u, (0, units - u.size))[None]
+    return advance(wide, drive, gate, *constants)[0, : u.size]
 
 
 def widened(network: MTRNN) -> tuple[Array, Array, Array]:

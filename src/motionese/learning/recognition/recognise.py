@@ -7,6 +7,7 @@ with the smallest error is kept, or that which first comes as near as motions we
 
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from math import isclose
 
 import jax
@@ -199,12 +200,18 @@ def _starts(
         idle = count - len(given)
         parts.append(jnp.pad(jnp.asarray(given, dtype), ((0, idle), (0, 0), (0, 0))))
     if settings.starts:
-        # One key a motion, so that a motion's starts do not depend on what is recognised with it.
-        keys = jax.vmap(lambda i: jax.random.fold_in(key, i))(jnp.arange(count))
-        shape = (settings.starts, network.size)
-        drawn = settings.spread * jax.vmap(lambda k: jax.random.normal(k, shape, dtype))(keys)
+        drawn = settings.spread * _drawn(key, count, settings.starts, network.size, dtype)
         if settings.levels is not None and parts:
             held = jnp.isin(jnp.arange(network.size), _units(network, settings.levels), invert=True)
             drawn = jnp.where(held, parts[0][:, :1], drawn)
         parts.append(drawn)
     return jnp.concatenate(parts, axis=1)
+
+
+@partial(jax.jit, static_argnums=(1, 2, 3, 4))
+def _drawn(
+    key: Array, motions: int, starts: int, units: int, dtype: jnp.dtype
+) -> Float[Array, "S M N"]:
+    """Draw from one key a motion: its starts do not depend on what is recognised with it."""
+    keys = jax.vmap(lambda i: jax.random.fold_in(key, i))(jnp.arange(motions))
+    return jax.vmap(lambda k: jax.random.normal(k, (starts, units), dtype))(keys)
