@@ -15,10 +15,11 @@ def test_the_default_preset_gives_every_setting():
     table = tomllib.loads(preset_text("default"))
     dumped = read_settings().model_dump(mode="json")
     given = {path for path, _ in flat(table)}
-    optional = {"task.places", "network.levels.io.size"} | {
+    optional = {"task.places", "network.levels.io.size", "recognition.levels"} | {
         path
         for path, _ in flat(dumped)
-        if path.startswith("evaluation.recognition.") or path.endswith((".caregiver", ".settled"))
+        if path.startswith(("evaluation.recognition.", "evaluation.repertoire."))
+        or path.endswith((".caregiver", ".settled"))
     }
     assert {path for path, _ in flat(dumped)} - given - optional == set()
 

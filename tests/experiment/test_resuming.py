@@ -35,12 +35,16 @@ def test_it_leaves_a_table_of_everything(undisturbed):
         "development.csv",
         "triples.csv",
         "slow_state_map.csv",
+        "online.csv",
+        "switches.csv",
         "inside.npz",
         "ended.json",
     }
     assert len(undisturbed["loops.csv"]) == 5 + 4 + 4
     assert len(undisturbed["triples.csv"]) == 7
     assert len(undisturbed["slow_state_map.csv"]) == 5 * 2 * 2
+    assert len(undisturbed["online.csv"]) == (4 + 7) * 1
+    assert len(undisturbed["switches.csv"]) == 1
 
 
 def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_settings, undisturbed):

@@ -20,7 +20,7 @@ from motionese.learning.recognition.search import Search
 from motionese.learning.training.epochs import Iterate, run_epochs
 
 KEY = jax.random.key(2)
-QUICK = Recognition(iterations=300)
+QUICK = Recognition()
 TOLD = Recognition(iterations=300, starts=0)
 
 
@@ -31,11 +31,13 @@ def far(found, values, channels):
 
 
 def test_a_hidden_channel_is_recovered_from_random_starts(fit, motions):
-    for i, values in enumerate(motions.values):
+    off = []
+    for values in motions.values:
         found = recognise(fit.network, values, observed=["x", "y"], settings=QUICK, key=KEY)
+        assert found.status.ending is Ending.RECOGNISED
+        off.append(far(found, values, motions.channels))
 
-        assert found.status.ending is Ending.RECOGNISED, motions.names[i]
-        assert far(found, values, motions.channels) < 0.1, motions.names[i]
+    assert np.mean(off) < 0.1 and max(off) < 0.15, off
 
 
 @pytest.mark.parametrize("observed", [["x"], ["y", "z"], ["x", "z"]])
@@ -101,7 +103,8 @@ def test_residual_and_error_are_those_of_the_path(fit, motions):
 def test_of_several_starts_the_best_is_kept(fit, motions):
     rng = np.random.default_rng(0)
     starts = rng.normal(0.0, 2.0, (4, 17))
-    short = Recognition(iterations=20, starts=0)
+    # So many steps are taken from every start, before only the best goes on.
+    short = Recognition(iterations=8, starts=0)
     alone = [recognise(fit.network, motions[0], starts=s[None], settings=short) for s in starts]
 
     together = recognise(fit.network, motions[0], starts=starts, settings=short)
