@@ -80,6 +80,27 @@ def test_steps_lead_to_where_the_motion_began_and_keep_within_the_bound(model):
     assert np.abs(u[3:]).max() <= 2.5
 
 
+def test_the_prior_pulls_to_its_mean_as_hard_as_it_is_precise(model):
+    regression, sensed = ErrorRegression(model, 100.0), window_of()
+    u = regression.begun(RNG.normal(0.0, 1.0, 12), sensed[0])
+    free = regression.linearised(u, sensed)
+    regression.precision = np.arange(1.0, 10.0, dtype=np.float32)
+    mean = u + np.float32(0.5)
+
+    held = regression.linearised(u, sensed, mean)
+
+    assert held.loss == free.loss
+    assert held.cost == pytest.approx(free.loss + 0.25 * 45, rel=1e-5)
+    np.testing.assert_allclose(held.slope, free.slope - 0.5 * regression.precision, atol=1e-5)
+    np.testing.assert_allclose(
+        held.curvature - free.curvature, np.diag(regression.precision), atol=1e-5
+    )
+    regression.damping = 1e-4
+    nothing = np.full(sensed.shape, np.nan)
+    there = regression.stepped(u, regression.linearised(u, nothing, mean))
+    np.testing.assert_allclose(there[3:], mean[3:], atol=2e-3)
+
+
 def test_what_nothing_was_observed_of_stays_where_it_was(model):
     regression = ErrorRegression(model, 100.0)
     u = regression.begun(RNG.normal(0.0, 1.0, 12), np.full(3, np.nan))

@@ -182,7 +182,9 @@ def test_what_was_taught_goes_to_a_robot(teaching, draw, tmp_path):
     expected = mo.generate(fit.network, taught.initial_state, 10, first=taught.values[0])
     model = runtime.load(file)
     player = runtime.Player(model, model.begin(taught.name, taught.values[0]))
-    np.testing.assert_allclose([player.step() for _ in range(9)], expected[1:], rtol=1e-3, atol=1e-4)
+    np.testing.assert_allclose(
+        [player.step() for _ in range(9)], expected[1:], rtol=1e-3, atol=1e-4
+    )
     new = str(tmp_path / "new.csv")
     assert typed("generate", str(file), "--like", taught.name, "--out", new)[::2] == (0, "")
     (path,) = mo.Motions.read(new).values

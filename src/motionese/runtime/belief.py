@@ -28,6 +28,7 @@ class Belief:
 
     Attributes:
         names: The learned motions' names.
+        none: How likely none of them is being shown.
     """
 
     def __init__(self, paths: Mapping[str, ndarray], accuracy: float) -> None:
@@ -50,7 +51,7 @@ class Belief:
         beginning = np.where(place == 0, 1 / len(lengths), 0.0)
         self._anew = (1 - CHANGES) * anywhere
         self._shares = (1 - CHANGES) * (ANEW * beginning + (1 - ANEW) * anywhere)
-        self._none, self._begun = CHANGES, False
+        self.none, self._begun = CHANGES, False
 
     def observe(self, row: ndarray) -> None:
         """Take in what is sensed [D] in the unit interval; NaN where nothing is."""
@@ -64,9 +65,9 @@ class Belief:
         costs = -0.5 * np.einsum("rd,rd->r", deviations, deviations)
         best = max(float(costs.max()), none)
         self._shares = self._shares * np.exp(costs - best)
-        self._none = self._none * float(np.exp(none - best))
-        total = self._shares.sum() + self._none
-        self._shares, self._none = self._shares / total, self._none / total
+        self.none = self.none * float(np.exp(none - best))
+        total = self._shares.sum() + self.none
+        self._shares, self.none = self._shares / total, self.none / total
 
     def _pass(self) -> None:
         """Let the time from one reading to the next pass."""
@@ -75,15 +76,15 @@ class Belief:
         later[1:] += self._from_before * now[:-1]
         later[2:] += self._leaping * now[:-2]
         later[self._last] += (1 - STAYS) * now[self._last]  # a motion that has ended rests
-        changed = CHANGES * (now.sum() + self._none)
+        changed = CHANGES * (now.sum() + self.none)
         self._shares = (1 - CHANGES) * later + changed * self._anew
-        self._none = (1 - CHANGES) * self._none + changed * CHANGES
+        self.none = (1 - CHANGES) * self.none + changed * CHANGES
 
     @property
     def shares(self) -> dict[str, float]:
         """How likely every motion is being shown, and none of them; the sum is 1."""
         each = np.add.reduceat(self._shares, self._first)
-        return dict(zip(self.names, each.tolist(), strict=True)) | {NONE: float(self._none)}
+        return dict(zip(self.names, each.tolist(), strict=True)) | {NONE: float(self.none)}
 
     @property
     def likeliest(self) -> tuple[str, int]:

@@ -6,8 +6,9 @@ beside the potentials: with x_t = m_t s_t + k_t y_t (see `Stepper`)
 
     S_0 = 1,    S_{t+1} = S_t P_t,    P_t = diag(1 − ε) + diag(k_t y_t (1 − y_t)) (ε W)ᵀ,
 
-S_t[k, i] being ∂u_{i,t}/∂c_k. A step solves (Jᵀ J + λ) Δc = −Jᵀ r (Levenberg 1944): what the
-window does not tell stays as it was.
+S_t[k, i] being ∂u_{i,t}/∂c_k. Around what a learned motion would have there, m, lies a prior of
+precision p, so that what the window does not tell is as it was learned. A step solves
+(Jᵀ J + p + λ) Δc = −(Jᵀ r + p (c − m)) (Levenberg 1944).
 """
 
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ from motionese.unit_interval import logit
 EASED, RAISED = 0.2, 5.0
 """λ is multiplied by the first after a step that was taken, by the second after another."""
 LEAST, FIRST, LARGEST = 1e-4, 1e-2, 1e2
-"""λ at the least, at first and at most, as a share of the largest diagonal element of Jᵀ J."""
+"""λ at the least, at first and at most, as a share of the largest diagonal element of Jᵀ J + p."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,20 +34,27 @@ class Linearised:
         potentials: u of all units in every row. [T, N]
         changes: ∂y of the channels in every row by the K unknowns. [T, K, D]
         loss: The summed squared residuals of what was observed.
-        curvature: Jᵀ J. [K, K]
-        slope: Jᵀ r. [K]
+        cost: The same with what the prior adds.
+        curvature: Jᵀ J + p. [K, K]
+        slope: Jᵀ r + p (c − m). [K]
     """
 
     outputs: ndarray
     potentials: ndarray
     changes: ndarray
     loss: float
+    cost: float
     curvature: ndarray
     slope: ndarray
 
 
 class ErrorRegression:
-    """Improves the state from which a model predicts a window of rows."""
+    """Improves the state from which a model predicts a window of rows.
+
+    Attributes:
+        damping: λ of the next step, as a share of the largest diagonal element of Jᵀ J + p.
+        precision: The prior's p, for every context unit; 0 at first. [K]
+    """
 
     def __init__(self, model: RuntimeModel, bound: float) -> None:
         """Take the model, and the largest |u| that a context unit may begin at."""
@@ -56,6 +64,7 @@ class ErrorRegression:
         self._offset = (rate * model.bias).astype(np.float32)
         self._width, self._senses_first = len(model.channels), model.senses_first
         self._bound, self.damping = bound, FIRST
+        self.precision = np.zeros(model.size - self._width, np.float32)
         self._unknown = np.eye(model.size, dtype=np.float32)[self._width :]
         self._step = np.empty_like(self._scaled)
         self._diagonal = self._step.reshape(-1)[:: model.size + 1]
@@ -87,13 +96,14 @@ class ErrorRegression:
                 u = self._following(u, x)
         return outputs, potentials
 
-    def linearised(self, u: ndarray, sensed: ndarray) -> Linearised:
+    def linearised(self, u: ndarray, sensed: ndarray, mean: ndarray | None = None) -> Linearised:
         """Return what the model predicts of rows from a state, and its sensitivities.
 
         Args:
             u: Potentials in the first row, see `begun`. [N]
             sensed: The rows in the unit interval; NaN where nothing was observed, and in rows that
                 are still to come. [T, D]
+            mean: The prior's m, potentials of all units; this state itself if left out. [N]
         """
         width, seen = self._width, np.isfinite(sensed)
         outputs, potentials = np.empty((2, len(sensed), len(u)), np.float32)
@@ -117,14 +127,12 @@ class ErrorRegression:
         residual = outputs[1:, :width].reshape(-1)[told] - sensed[1:].reshape(-1)[told]
         residual = residual.astype(np.float32)
         jacobian = changes[1:].transpose(1, 0, 2).reshape(len(change), -1)[:, told]
-        return Linearised(
-            outputs,
-            potentials,
-            changes,
-            float(residual @ residual),
-            jacobian @ jacobian.T,
-            jacobian @ residual,
-        )
+        loss, curvature, slope = residual @ residual, jacobian @ jacobian.T, jacobian @ residual
+        away = potentials[0, width:] - mean[width:] if mean is not None else 0 * slope
+        curvature.reshape(-1)[:: len(away) + 1] += self.precision
+        slope += self.precision * away
+        cost = loss + self.precision @ away**2
+        return Linearised(outputs, potentials, changes, float(loss), float(cost), curvature, slope)
 
     def stepped(self, u: ndarray, here: Linearised) -> ndarray:
         """Return where a damped step leads [N]; what is pushed beyond its bound stays there."""
@@ -140,7 +148,7 @@ class ErrorRegression:
 
     def better(self, after: Linearised, before: Linearised) -> bool:
         """Return whether a step made the error smaller; λ falls if it did, and rises if not."""
-        better = after.loss < before.loss
+        better = after.cost < before.cost
         self.damping *= EASED if better else RAISED
         self.damping = min(max(self.damping, LEAST), LARGEST)
         return better

@@ -17,6 +17,8 @@ from motionese.unit_interval import INNER_HIGH, INNER_LOW
 
 ACCURACY = 0.05
 """Standard deviation of what is shown from what was learned, in the unit interval."""
+HALF = 0.5
+"""Belief in none of the motions from which on none of them is a prior."""
 BACK = 5
 """A motion that is taken up anew is looked back on for so many rows."""
 KNOWN = 4
@@ -132,7 +134,9 @@ class OnlineRecognition:
         self._regression = ErrorRegression(model, BOUND)
         self._learned = {name: self._generated(name) for name in model.initial_states}
         self._belief = Belief({n: y for n, (y, _) in self._learned.items()}, accuracy)
-        self._loosely = np.concatenate([u for _, u in self._learned.values()]).var(axis=0)
+        learned = np.concatenate([u for _, u in self._learned.values()])
+        apart = np.maximum(learned[:, len(model.channels) :].var(axis=0), LEAST_VARIANCE)
+        self._regression.precision = (accuracy**2 / apart).astype(np.float32)
         self._window = deque[ndarray](maxlen=window)
         self._row, self._u = -1, np.zeros(model.size, np.float32)
 
@@ -166,10 +170,9 @@ class OnlineRecognition:
 
     def _generated(self, name: str) -> tuple[ndarray, ndarray]:
         """Return a learned motion's channels [L, D] in the unit interval, and its potentials."""
-        nothing = np.full(len(self.model.channels), np.nan)
-        state = self.model.begin(name)
-        y, u = self._regression.predicted(state.u, nothing, self.model.lengths[name])
-        return y[:, : len(nothing)], u
+        nothing, u = np.full(len(self.model.channels), np.nan), self.model.begin(name).u
+        y, potentials = self._regression.predicted(u, nothing, self.model.lengths[name])
+        return y[:, : len(nothing)], potentials
 
     def _append(self, sensed: ndarray) -> None:
         """Take in the next row; the state is carried on where the window slides."""
@@ -193,7 +196,16 @@ class OnlineRecognition:
     def _linearised(self, u: ndarray) -> Linearised:
         coming = np.full((self.ahead, len(self._seen)), np.nan)
         rows = np.concatenate([np.array(self._window), coming])
-        return self._regression.linearised(self._regression.begun(u, rows[0]), rows)
+        return self._regression.linearised(
+            self._regression.begun(u, rows[0]), rows, self._expected_begin()
+        )
+
+    def _expected_begin(self) -> ndarray | None:
+        """Return the learned motion's state in the window's first row, where it reaches so far."""
+        name, place = self._belief.likeliest
+        first = place - len(self._window) + 1
+        known = first >= 0 and self._belief.none < HALF
+        return self._learned[name][1][first] if known else None
 
     def _tried(self, here: Linearised) -> Linearised:
         """Begin anew with the motion believed in most, where it explains the last rows better."""
@@ -273,8 +285,7 @@ class OnlineRecognition:
         """
         width, values = len(self._seen), np.isfinite(np.array(self._window)[1:]).sum()
         variance = (here.loss + KNOWN * self._accuracy**2) / (values + KNOWN)
-        prior = variance / np.maximum(self._loosely[width:], LEAST_VARIANCE)
-        change = here.changes[rows:].transpose(1, 0, 2).reshape(len(prior), -1)
-        left = np.linalg.solve(here.curvature + np.diag(prior), change)
+        change = here.changes[rows:].transpose(1, 0, 2).reshape(len(here.slope), -1)
+        left = np.linalg.solve(here.curvature, change)
         unit = np.sqrt(variance * (1 + (change * left).sum(0))).reshape(-1, width)
         return np.asarray(unit * (self.model.high - self.model.low) / (INNER_HIGH - INNER_LOW))
