@@ -28,7 +28,7 @@ from motionese.network import MTRNN
 
 CHUNK = 100
 """Epochs in one compiled call; progress is told and convergence judged between calls."""
-WARM = Recognition(iterations=50, starts=0, rate=0.1)
+WARM = Recognition(iterations=8, starts=0)
 """Held-out motions are recognised from where the last recognition ended, so a few updates do."""
 
 
