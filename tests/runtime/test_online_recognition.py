@@ -155,3 +155,10 @@ def test_what_is_not_observed_is_as_it_was_learned(model):
     results = observed(OnlineRecognition(model, observed=["grip"], window=10), noisy)
     hidden = np.array([r.path[-1, :2] - path[r.row, :2] for r in results[15:]]) / (3.0, 135.0)
     assert np.abs(hidden).mean() < 0.02
+
+
+def test_a_row_below_0_is_told(model):
+    online = OnlineRecognition(model)
+    with pytest.raises(ControlError, match="row must be 0 or more, got -1"):
+        online.observe([0.0, 0.0, 0.0], row=-1)
+    assert online.observe([0.0, 0.0, 0.0]).row == 0

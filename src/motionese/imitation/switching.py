@@ -103,7 +103,7 @@ def _turned(
     signs = primitives_of(second, other.begins, len(other.path))
     place = int(rng.integers(len(first.primitives)))
     stroke = np.diff([*one.begins, len(one.path)])[place]
-    row = one.begins[place] + int(rng.integers(stroke // 4, max(3 * stroke // 4, 1)))
+    row = one.begins[place] + int(rng.integers(max(stroke // 4, 1), max(3 * stroke // 4, 2)))
     under_way = first.primitives[place].name
     rows = [r for r in range(len(other.path) - LEFT) if signs[r] != under_way]
     apart = np.linalg.norm(other.path[rows] - one.path[row], axis=1)

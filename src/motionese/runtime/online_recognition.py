@@ -150,8 +150,10 @@ class OnlineRecognition:
                 as not read; one that came before fills its place in the window.
 
         Raises:
-            ControlError: A channel that does not exist, another width.
+            ControlError: A channel that does not exist, another width, a row below 0.
         """
+        if row is not None and row < 0:
+            raise ControlError(f"row must be 0 or more, got {row}")
         began = time.perf_counter()
         sensed = self.model.to_unit(row_of(reading, self.model.channels))
         sensed[~self._seen] = np.nan
