@@ -9,7 +9,8 @@ from motionese import Motions, Training, recognise, train
 from motionese.errors import SettingError
 from motionese.learning import Ending
 
-EARLY = Training(epochs=1500, schedule="constant", patience=200, tolerance=0.01)
+# Without a tolerance, training ends only where the best network lies before the last one.
+EARLY = Training(epochs=4000, schedule="constant", patience=200, tolerance=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -37,13 +38,13 @@ def early(network, motions, unlike, told):
 def test_the_network_that_was_best_for_them_is_kept(early, told):
     best = told[int(early.validation_losses.argmin())]
     assert early.status.ending is Ending.CONVERGED
-    assert "the loss of the held-out motions fell by less than 0.01" in str(early.status)
-    assert best.epoch < told[-1].epoch == len(early.losses) < 1500
+    assert "the loss of the held-out motions fell by less than 0 of" in str(early.status)
+    assert best.epoch < told[-1].epoch == len(early.losses) < EARLY.epochs
 
     kept = early.share(early.closed_loop_error)
 
     assert kept == pytest.approx(best.closed_loop_error, rel=1e-5)
-    assert kept != pytest.approx(told[-1].closed_loop_error, rel=0.1)
+    assert kept != pytest.approx(told[-1].closed_loop_error, rel=1e-3)
 
 
 def test_progress_tells_both_errors_and_both_losses(early, told):
