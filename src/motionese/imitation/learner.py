@@ -1,7 +1,7 @@
 """What a robot has become: its network and the experiences it learns from; how it is kept."""
 
-from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import Any, TypeVar
@@ -13,8 +13,15 @@ from numpy import ndarray
 from motionese.channels import Channels
 from motionese.errors import StorageError
 from motionese.imitation.keys import key_for
+from motionese.imitation.repertoire import (
+    Element,
+    Sharing,
+    element_called,
+    element_seen,
+    first_primitive,
+)
 from motionese.imitation.scene import Scene
-from motionese.imitation.settings import NetworkSettings
+from motionese.imitation.settings import NetworkSettings, StagedTraining
 from motionese.learning import (
     Ending,
     Fit,
@@ -47,6 +54,8 @@ class Experience:
         initial_state: u_0 of all levels. [N]
         error: Root mean squared error in closed loop after training, each channel in its unit;
             NaN before. [D]
+        begins_with: By level below the top one: the element of its repertoire that it begins with.
+            Itself where that is not told: it was made while the level was the top one.
     """
 
     loop: int
@@ -54,6 +63,7 @@ class Experience:
     values: Float[ndarray, "T D"]
     initial_state: Float[ndarray, " N"]
     error: Float[ndarray, " D"]
+    begins_with: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -63,18 +73,52 @@ class Experience:
 
 @dataclass(frozen=True)
 class Learner:
-    """A network and its experiences, the oldest first."""
+    """A network and its experiences, the oldest first.
+
+    Attributes:
+        elements: The repertoires of its levels, as far as motions share them.
+    """
 
     network: MTRNN
     experiences: tuple[Experience, ...] = ()
+    elements: tuple[Element, ...] = ()
 
     def experiencing(
-        self, loop: int, motion: str, values: Float[ndarray, "T D"], state: Float[ndarray, " N"]
+        self,
+        loop: int,
+        motion: str,
+        values: Float[ndarray, "T D"],
+        state: Float[ndarray, " N"],
+        begins_with: Mapping[str, str] | None = None,
     ) -> "Learner":
         """Return the learner with a further experience."""
         unknown = np.full(values.shape[1], np.nan)
-        fresh = Experience(loop, motion, values, state, unknown)
+        fresh = Experience(loop, motion, values, state, unknown, begins_with or {})
         return replace(self, experiences=(*self.experiences, fresh))
+
+    def begins_with(
+        self, motion: str, shown: Float[ndarray, "T D"] | None = None
+    ) -> dict[str, str]:
+        """Return by closed level the element of its repertoire that a motion begins with.
+
+        A level is closed once another has opened above it.
+
+        Args:
+            motion: What the caregiver calls it.
+            shown: What was seen of it, to go by that instead; NaN where nothing was. [T, D]
+        """
+        scale = self.channels.interval_widths
+        return {
+            level: element_called(known, motion)
+            if shown is None
+            else element_seen(known, shown, scale)
+            for level in self.network.names[1:-1]
+            if (known := self.repertoire_of(level))
+        }
+
+    def repertoire_of(self, level: str) -> tuple[Element, ...]:
+        """Return the elements of a level's repertoire."""
+        return tuple(e for e in self.elements if e.level == level)
 
     def remembering(self, loop: int, memory: int, rehearsed: Collection[str]) -> "Learner":
         """Return the learner with the experiences of its last loops.
@@ -94,7 +138,7 @@ class Learner:
 
     def trained(
         self,
-        settings: Training,
+        settings: StagedTraining,
         rate_hz: float,
         *,
         key: Array | None = None,
@@ -116,13 +160,47 @@ class Learner:
             motions,
             settings=self.for_levels(settings),
             initial_states=np.array([e.initial_state for e in self.experiences]),
+            shared=self.groups(settings.shared),
             key=key,
             padded_to=(max(padded_to[0], len(motions)), max(padded_to[1], *motions.lengths)),
             progress=progress,
         )
         learned = zip(self.experiences, fit.initial_states, fit.closed_loop_error, strict=True)
         experiences = tuple(replace(e, initial_state=s, error=error) for e, s, error in learned)
-        return Learner(fit.network, experiences), fit
+        after = replace(self, network=fit.network, experiences=experiences)
+        return after._known(settings.shared), fit
+
+    def groups(self, shared: Mapping[str, Sharing]) -> dict[str, list[str]]:
+        """Return by level whose initial states every experience shares, see `Sharing`."""
+        closed = self.network.names[1:-1]
+        groups = {}
+        for level, sharing in shared.items():
+            if sharing == "first primitive" and level in self.network.names:
+                groups[level] = [first_primitive(e.motion) for e in self.experiences]
+            elif sharing == "repertoire" and level in closed:
+                one = not self.repertoire_of(level)
+                groups[level] = [
+                    "" if one else e.begins_with.get(level, e.motion) for e in self.experiences
+                ]
+        return groups
+
+    def _known(self, shared: Mapping[str, Sharing]) -> "Learner":
+        """Return the learner with the repertoires of its levels as they are after training."""
+        known = {(e.level, e.motion): e for e in self.elements}
+        top = self.network.names[-1]
+        if shared.get(top) == "repertoire":
+            for e in self.experiences:
+                if e.motion != BABBLING:
+                    known[top, e.motion] = Element(top, e.motion, e.values, e.initial_state)
+        for level, members in self.groups(shared).items():
+            units = self.network.units(level)
+            for member, e in zip(members, self.experiences, strict=True):
+                if (level, member) in known:
+                    of = known[level, member]
+                    state = of.initial_state.copy()
+                    state[units] = e.initial_state[units]
+                    known[level, member] = replace(of, initial_state=state)
+        return replace(self, elements=tuple(known.values()))
 
     def motions(self, rate_hz: float) -> Motions:
         """Return the experiences as motions to train on; NaN is what was not observed."""
@@ -157,14 +235,21 @@ class Learner:
     def repertoire(self) -> Float[ndarray, "R N"]:
         """Return initial states of all that it has learned, in every combination of its levels.
 
-        Each context level takes its states from the latest experience of one of the motions: the
-        Cf_0 of one beside the Cs_0 of another. Nothing learned is a state of 0.
+        Each context level takes its states from its repertoire, or from the latest experience of
+        every motion: the Cf_0 of one beside the Cs_0 of another. Nothing learned is a state of 0.
         """
         latest = {e.motion: e.initial_state for e in self.experiences}
-        ends = np.cumsum(self.network.sizes)[1:-1]
-        levels = zip(*(np.split(state, ends) for state in latest.values()), strict=True)
-        states = [np.concatenate(each) for each in product(*levels) if each]
-        return np.array(states or [np.zeros(self.network.size)])
+        levels, begin = [], 0  # that of IO goes with the first context level
+        ends = np.cumsum(self.network.sizes)[1:]
+        for level, end in zip(self.network.names[1:], ends, strict=True):
+            closed = level != self.network.names[-1]
+            known = [e.initial_state for e in self.repertoire_of(level)] if closed else []
+            states = [state[begin:end] for state in known or latest.values()]
+            levels.append(list({state.tobytes(): state for state in states}.values()))
+            begin = end
+        return np.array(
+            [np.concatenate(each) for each in product(*levels)] or [np.zeros(self.network.size)]
+        )
 
     def grown(self, settings: NetworkSettings, key: Array) -> "Learner":
         """Return the learner with the next level opened, its initial states at 0."""
@@ -182,14 +267,17 @@ class Learner:
             replace(e, initial_state=np.concatenate([e.initial_state, opened]))
             for e in self.experiences
         )
-        return Learner(network, experiences)
+        return replace(self, network=network, experiences=experiences)
 
     def for_levels(self, settings: S) -> S:
-        """Return settings without bounds and noise of levels that are not open yet."""
-        names = {level.name for level in self.network.levels}
+        """Return settings without what they say of levels that are not open yet.
+
+        Nor is the top level slower: there is none above it that could take over.
+        """
+        names = self.network.names
         limited = {
-            field: {level: value for level, value in by_level.items() if level in names}
-            for field in ("bound", "noise")
+            field: {level: value for level, value in by_level.items() if level in known}
+            for field, known in (("bound", names), ("noise", names), ("slower", names[:-1]))
             if isinstance(by_level := getattr(settings, field, None), dict)
         }
         return settings.model_copy(update=limited)
@@ -248,9 +336,20 @@ def babbled(scene: Scene, learner: Learner) -> Learner:
 
 def write_learner(path: Path, learner: Learner, rate_hz: float, facts: dict[str, Any]) -> None:
     """Write a learner as a fit, with its experiences and JSON-able facts, whole or not at all."""
-    experiences = [{"loop": e.loop, "motion": e.motion} for e in learner.experiences]
+    told = {
+        "experiences": [
+            {"loop": e.loop, "motion": e.motion, "begins_with": e.begins_with}
+            for e in learner.experiences
+        ],
+        "elements": [{"level": e.level, "motion": e.motion} for e in learner.elements],
+    }
     arrays = {f"values.{i}": e.values for i, e in enumerate(learner.experiences)}
-    write_fit(path, learner.as_fit(rate_hz), arrays, {**facts, "experiences": experiences})
+    for i, element in enumerate(learner.elements):
+        arrays |= {
+            f"element.{i}.values": element.values,
+            f"element.{i}.state": element.initial_state,
+        }
+    write_fit(path, learner.as_fit(rate_hz), arrays, {**facts, **told})
 
 
 def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
@@ -259,11 +358,19 @@ def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
     learned = zip(fit.initial_states, fit.closed_loop_error, strict=True)
     try:
         experiences = tuple(
-            Experience(each["loop"], each["motion"], arrays[f"values.{i}"], state, error)
+            Experience(values=arrays[f"values.{i}"], initial_state=state, error=error, **each)
             for i, (each, (state, error)) in enumerate(
                 zip(facts.pop("experiences"), learned, strict=True)
             )
         )
+        elements = tuple(
+            Element(
+                values=arrays[f"element.{i}.values"],
+                initial_state=arrays[f"element.{i}.state"],
+                **each,
+            )
+            for i, each in enumerate(facts.pop("elements"))
+        )
     except (KeyError, TypeError, ValueError) as error:
         raise StorageError(f"{path}: a model, but not a robot of an experiment") from error
-    return Learner(fit.network, experiences), facts
+    return Learner(fit.network, experiences, elements), facts

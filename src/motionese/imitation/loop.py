@@ -112,7 +112,9 @@ def imitation_loop(
     for each in imitated:
         values = each.performance.experience(settings.imitation.efference_copy)
         name, state = each.sequence.name, each.found.initial_state
-        learner = learner.experiencing(loop, name, values, state)
+        shown = scene.seen(each.watched) if settings.training.grouping == "seen" else None
+        begins_with = learner.begins_with(name, shown)
+        learner = learner.experiencing(loop, name, values, state, begins_with)
     learner = learner.remembering(loop, settings.imitation.memory, rehearsed)
     learner, fit = learner.trained(  # step 4
         settings.training,
@@ -120,33 +122,46 @@ def imitation_loop(
         key=key_for(scene.seed, "training", loop),
         padded_to=(capacity, 0),
     )
-    errors = _reproduction_errors(scene, learner, imitated, loop)
+    recalled = _recalled(scene, learner, imitated, loop)
     seconds = (time.perf_counter() - began) / len(imitated)
     rows = [
         {
             "loop": loop,
             "motion": each.sequence.name,
             **each.measures(scene),
-            "reproduction_error_cm": error,
+            **recall,
             "status": str((fit.status if fit.status.failed else each.found.status).ending.value),
             "seconds": seconds,
         }
-        for each, error in zip(imitated, errors, strict=True)
+        for each, recall in zip(imitated, recalled, strict=True)
     ]
     return learner, rows, {"loop": loop, **network_row(learner), "loss": fit.losses[-1]}, fit.status
 
 
-def _reproduction_errors(
-    scene: Scene, learner: Learner, imitated: list[Imitation], loop: int
-) -> list[float]:
-    """Return how far [cm] the trained network's motions are from this loop's experience."""
+def _recalled(scene: Scene, learner: Learner, imitated: list[Imitation], loop: int) -> list[Row]:
+    """Return how far [cm] what the trained network recalls is from this loop's experience.
+
+    It recalls a motion from the initial states that it has learned: as a whole, stroke by stroke,
+    and what it takes the motion to begin with, by the level whose repertoire that is of.
+    """
     fresh = {e.motion: e for e in learner.experiences if e.loop == loop}
-    errors = []
+    rows = []
     for each in imitated:
-        own = fresh[each.sequence.name]
+        own, hand = fresh[each.sequence.name], each.performance.path
         path = generate(learner.network, own.initial_state, len(own.values), first=own.values[0])
-        errors.append(seen_error_cm(scene.body, path, own.values, each.performance.path))
-    return errors
+        ends = (*each.watched.begins[1:], len(path))
+        strokes = [
+            seen_error_cm(scene.body, path[a:b], own.values[a:b], hand[a:b])
+            for a, b in zip(each.watched.begins, ends, strict=True)
+        ]
+        rows.append(
+            {
+                "reproduction_error_cm": seen_error_cm(scene.body, path, own.values, hand),
+                "reproduction_strokes_cm": " ".join(f"{error:.2f}" for error in strokes),
+                **{f"begins_with_{level}": name for level, name in own.begins_with.items()},
+            }
+        )
+    return rows
 
 
 def network_row(learner: Learner) -> Row:

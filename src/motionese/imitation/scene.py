@@ -74,6 +74,12 @@ class Scene:
         values[:, self.joints] = self._arms[start]
         return values
 
+    def seen(self, watched: Watched) -> Float[ndarray, "T D"]:
+        """Return what was seen of what was watched: all but the joints, which are NaN."""
+        values = watched.sensed.copy()
+        values[:, self.joints] = np.nan
+        return values
+
     def to_recognise(
         self,
         values: Sequence[Float[ndarray, "_ D"]],

@@ -9,6 +9,7 @@ from motionese.body import BodySettings
 from motionese.caregiver import Manner
 from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
+from motionese.imitation.repertoire import Grouping, Sharing
 from motionese.learning import Recognition, Training
 from motionese.network import InitialIO, Level, Scale
 from motionese.task import Task, task_named
@@ -88,6 +89,18 @@ class Acting(Group):
     rehearsal: bool
 
 
+class StagedTraining(Training):
+    """Training all through a development.
+
+    Attributes:
+        shared: By level, which motions share its initial states; nobody where it is not named.
+        grouping: How it is known which element of a repertoire a motion begins with.
+    """
+
+    shared: dict[str, Sharing] = Field(default_factory=dict)
+    grouping: Grouping = "labels"
+
+
 class Online(Group):
     """Recognition while a demonstration is shown, and the lags at which the robot follows it."""
 
@@ -116,7 +129,7 @@ class Settings(Group):
     caregiver: Manner
     babbling: Babbling
     imitation: Acting
-    training: Training
+    training: StagedTraining
     recognition: Recognition
     evaluation: Evaluation
 
@@ -124,11 +137,20 @@ class Settings(Group):
     def _levels_exist(self) -> "Settings":
         known = list(self.network.levels)
         for group in ("training", "recognition"):
-            for field in ("bound", "noise"):
+            for field in ("bound", "noise", "slower"):
                 by_level = getattr(getattr(self, group), field, {})
                 for level in by_level if isinstance(by_level, dict) else ():
                     if level not in known:
                         raise ValueError(unknown(f"level in {group}.{field}", level, known))
+        below = known[1:-1]
+        for level in self.training.shared:
+            if level == known[-1]:
+                raise ValueError(
+                    f"training.shared.{level}: {level} is the top level, whose initial states "
+                    f"belong to single motions; shared can be those of {', '.join(below) or 'none'}"
+                )
+            if level not in below:
+                raise ValueError(unknown("level in training.shared", level, below))
         return self
 
 

@@ -175,7 +175,9 @@ class Teaching:
         for practice in range(PRACTICE):
             loop += 1
             values = trial.performance.experience(copied)
-            learner = self.learner.experiencing(loop, entry.motion, values, trial.state)
+            learner = self.learner.experiencing(
+                loop, entry.motion, values, trial.state, self.learner.begins_with(entry.motion)
+            )
             self._become(practised(self.scene, learner, loop, report, (practice, PRACTICE)))
             self._look_again()
             trial = self.imitate()

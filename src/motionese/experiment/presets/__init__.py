@@ -13,7 +13,10 @@ from motionese.imitation import checked, setting_names
 PRESETS = ("default", "paper", "three_stages", "settled", "desk_arm", "shapes")
 WHOLE = ("network.levels", "factors")
 """Tables that stand for themselves: a file that has one leaves nothing of the default's."""
-OPEN_GROUPS = ("training.bound", "training.noise", "recognition.bound", "task.places")
+OPEN_GROUPS = (
+    *("training.bound", "training.noise", "training.shared"),
+    *("recognition.bound", "recognition.slower", "task.places"),
+)
 """Tables whose names are not fixed: levels and places, checked with the whole."""
 QUICK_LOOPS = 2
 """Loops of every stage in a quick trial."""

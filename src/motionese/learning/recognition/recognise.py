@@ -153,7 +153,8 @@ def _found(search: Search, settings: Recognition) -> Found:
     rule = recognition_rule(
         settings.optimiser, settings.rate, settings.momentum, settings.iterations
     )
-    return descend(search, rule, settings.iterations)
+    shares = search.network.per_unit(settings.slower, 1.0)[search.units]
+    return descend(search, rule, settings.iterations, shares)
 
 
 def _sought(network: MTRNN, motions: Motions, settings: Recognition) -> Int[Array, " K"]:

@@ -1,5 +1,6 @@
 """Epochs of training in one compiled call: gradients of the error, updates (4) and (5)."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
@@ -12,6 +13,7 @@ from motionese.learning.error import Error
 from motionese.learning.motions.batch import Batch
 from motionese.learning.objective import predictions
 from motionese.learning.parameters import Parameters
+from motionese.learning.training.shared_states import averaged
 
 
 class Iterate(eqx.Module):
@@ -41,6 +43,7 @@ def run_epochs(
     teacher_forcing: Float[Array, ""],
     bound: Float[Array, " N"],
     noise: Float[Array, " N"] | None,
+    shared: Mapping[str, Float[Array, "S S"]],
     key: Array,
     length: int,
 ) -> tuple[Iterate, Float[Array, " E"]]:
@@ -62,6 +65,9 @@ def run_epochs(
 
     def epoch(state: Iterate, _: None) -> tuple[Iterate, Array]:
         value, gradient = jax.value_and_grad(loss)(state.free, disturbance(state.epoch))
+        if "initial_states" in gradient:
+            states = averaged(start.network, gradient["initial_states"], shared)
+            gradient = {**gradient, "initial_states": states}
         updates, memory = rule.update(gradient, state.memory, state.free)
         free = optax.apply_updates(state.free, updates)
         if "initial_states" in free:

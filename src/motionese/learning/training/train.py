@@ -11,6 +11,7 @@ from motionese.learning.fit import Fit
 from motionese.learning.motions.motions import Motions
 from motionese.learning.settings import Training
 from motionese.learning.status import Progress
+from motionese.learning.training.shared_states import Groups
 from motionese.learning.training.trainer import make_trainer
 from motionese.network import MTRNN
 
@@ -25,6 +26,7 @@ def train(
     epochs: int | None = None,
     settings: Training | None = None,
     initial_states: Float[ndarray, "S N"] | None = None,
+    shared: Groups | None = None,
     validation: Motions | None = None,
     key: Array | None = None,
     padded_to: tuple[int, int] | None = None,
@@ -42,6 +44,8 @@ def train(
         epochs: Overrides `settings.epochs`.
         settings: Rates, optimiser, bounds, noise.
         initial_states: Initial states of every motion to start from; 0 where left out.
+        shared: By level, which group every motion belongs to: the motions of a group share their
+            initial states of that level. Those of a level that is not named are every motion's own.
         validation: Motions held out.
         key: JAX random key of the state noise; needed where there is any.
         padded_to: Motions and rows to pad the batch to, so that different batches share compiled
@@ -52,12 +56,21 @@ def train(
             same fit at once: whoever has saved the fit removes it.
 
     Raises:
-        SettingError: Channels, a rate or initial states do not fit, an unknown level in bounds or
-            noise, noise without a key, no epochs, or an error that the network has no variance for.
+        SettingError: Channels, a rate or initial states do not fit, an unknown level in bounds,
+            noise or shared states, noise without a key, no epochs, or an error that the network has
+            no variance for.
         StorageError: The checkpoint belongs to another training, or cannot be read.
     """
     trainer = make_trainer(
-        network, motions, epochs, settings or Training(), initial_states, validation, key, padded_to
+        network,
+        motions,
+        epochs,
+        settings or Training(),
+        initial_states,
+        shared or {},
+        validation,
+        key,
+        padded_to,
     )
     state = trainer.beginning
     checkpoint = None if checkpoint is None else Path(checkpoint)

@@ -1,5 +1,6 @@
 """One training: what stays the same all through it, and what follows from its state."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 
@@ -23,6 +24,7 @@ from motionese.learning.recognition.recognise import recognise_all
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.training.epochs import Iterate, run_epochs
+from motionese.learning.training.shared_states import Groups, averaged, averaging
 from motionese.learning.training.training_state import TrainingState
 from motionese.network import MTRNN
 
@@ -45,6 +47,7 @@ class Trainer:
     error: Error
     bound: Float[Array, " N"]
     noise: Float[Array, " N"] | None
+    shared: Mapping[str, Float[Array, "C C"]]
     key: Array
     settings: Training
 
@@ -66,6 +69,7 @@ class Trainer:
             "settings": (self.settings.model_dump_json(), jax.random.key_data(self.key)),
             "motions": (*self.batch, *(self.validation.batch() if self.validation else ())),
             "networks": (kind, *jax.tree.leaves(self.start)),
+            "shared initial states": (str(list(self.shared)), *self.shared.values()),
         }
         return {name: _digest(*values) for name, values in parts.items()}
 
@@ -75,7 +79,7 @@ class Trainer:
         problem = (self.start, self.batch, self.rule, self.error, forced)
         epochs = min(CHUNK, self.settings.epochs - len(state.losses))
         following, chunk = run_epochs(
-            state.latest, *problem, self.bound, self.noise, self.key, epochs
+            state.latest, *problem, self.bound, self.noise, self.shared, self.key, epochs
         )
         losses = np.concatenate([state.losses, np.asarray(chunk)])
         wrong = np.flatnonzero(~np.isfinite(losses))
@@ -165,6 +169,7 @@ def make_trainer(
     epochs: int | None,
     settings: Training,
     initial_states: Float[ndarray, "S N"] | None,
+    groups: Groups,
     validation: Motions | None,
     key: Array | None,
     padded_to: tuple[int, int] | None,
@@ -192,8 +197,10 @@ def make_trainer(
             "drawn with variance=True"
         )
     learned = learned_by(network, settings.learned)
+    shared = averaging(network, groups, len(motions), count)
+    states = _states(network, len(motions), count, initial_states)
     return Trainer(
-        start=Parameters(network, _states(network, len(motions), count, initial_states)),
+        start=Parameters(network, averaged(network, states, shared)),
         learned=learned,
         motions=motions,
         validation=validation,
@@ -202,6 +209,7 @@ def make_trainer(
         error=error,
         bound=network.per_unit(settings.bound, jnp.inf),
         noise=noise,
+        shared=shared,
         key=jax.random.key(0) if key is None else key,
         settings=settings,
     )

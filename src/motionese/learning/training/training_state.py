@@ -16,7 +16,7 @@ from motionese.errors import StorageError
 from motionese.files import write_whole
 from motionese.learning.training.epochs import Iterate
 
-FORMAT, VERSION = "motionese-training", "2"
+FORMAT, VERSION = "motionese-training", "3"
 SERIES = ("losses", "validation_losses")
 
 
