@@ -113,14 +113,20 @@ def descent(
     teacher_forcing,
     bound,
     clip,
+    shared=(),
 ):
     """Equations (4) and (5), every epoch with the gradients of all motions.
+
+    `shared` lists units and motions [S'] whose initial states of these units are one: it begins
+    at their mean, and moves by the mean of their gradients.
 
     Returns:
         The trained net, the initial states [S, N], and the error of every epoch.
     """
     net, free = dict(net), np.array(free, dtype=float)
     errors = []
+    for units, members in shared:
+        free[np.ix_(members, units)] = free[np.ix_(members, units)].mean(axis=0)
     for epoch in range(epochs):
         share = rate_share(epoch, epochs, schedule)
         results = [
@@ -131,6 +137,8 @@ def descent(
         d_weights = sum(slope["weights"] for _, slope in results)
         d_bias = sum(slope["bias"] for _, slope in results) * net["learned_bias"]
         d_free = np.array([slope["initial"] for _, slope in results])
+        for units, members in shared:
+            d_free[np.ix_(members, units)] = d_free[np.ix_(members, units)].mean(axis=0)
         norm = math.sqrt((d_weights**2).sum() + (d_bias**2).sum() + (d_free**2).sum())
         shrink = clip / norm if clip and norm > clip else 1.0
         shrink *= share

@@ -215,6 +215,7 @@ OTHERS = {
         {"network": MTRNN.draw(LEVELS, key=jax.random.key(0), learned_bias=False)},
     ),
     "begin": ("networks", {"initial_states": np.ones((2, 10))}),
+    "groups": ("shared initial states", {"shared": {"cf": "aa"}}),
 }
 
 

@@ -20,15 +20,15 @@ from motionese.learning.recognition.search import Search
 
 
 @pytest.mark.parametrize(
-    ("levels", "learned_bias", "initial_io", "clip", "schedule"),
+    ("levels", "learned_bias", "initial_io", "clip", "schedule", "shared"),
     [
-        (3, True, "sensed", 0.0, "constant"),
-        (2, False, "sensed", 0.3, "cosine"),
-        (4, True, "zero", 0.3, "constant"),
+        (3, True, "sensed", 0.0, "constant", {"cf": "aba"}),
+        (2, False, "sensed", 0.3, "cosine", {}),
+        (4, True, "zero", 0.3, "constant", {"cs": "baa", "cf": "ccc"}),
     ],
 )
 def test_training_equals_plain_descent_by_hand(
-    float64, levels, learned_bias, initial_io, clip, schedule
+    float64, levels, learned_bias, initial_io, clip, schedule, shared
 ):
     net, arrays = drawn(levels, learned_bias=learned_bias, initial_io=initial_io)
     motions, twins = ragged()
@@ -45,8 +45,11 @@ def test_training_equals_plain_descent_by_hand(
         teacher_forcing=0.3,
     )
 
-    fit = train(net, motions, settings=settings, initial_states=begin, padded_to=(4, 9))
+    fit = train(
+        net, motions, settings=settings, initial_states=begin, shared=shared, padded_to=(4, 9)
+    )
 
+    of_level = {name: np.arange(net.size)[net.units(name)] for name in shared}
     expected, free, errors = by_hand.descent(
         arrays,
         twins,
@@ -58,6 +61,11 @@ def test_training_equals_plain_descent_by_hand(
         teacher_forcing=0.3,
         bound=np.where(np.arange(net.size) < 2, np.inf, 0.3),
         clip=clip,
+        shared=[
+            (of_level[level], [i for i in range(3) if groups[i] == group])
+            for level, groups in shared.items()
+            for group in set(groups)
+        ],
     )
     starts = [
         by_hand.start(f, *motion[:2], initial_io) for f, motion in zip(free, twins, strict=True)
@@ -116,7 +124,7 @@ def test_what_first_comes_near_enough_is_chosen_and_stays_there(float64):
     bound, none = jnp.asarray(given["bound"]), jnp.asarray(0.0)
     units, begin, limit = jnp.arange(net.size), jnp.asarray(starts), jnp.asarray(enough)
     search = Search(net, motions.batch(), begin, units, bound, none, limit)
-    states, by_start, chosen = descend(search, rule, 10)
+    states, by_start, chosen = descend(search, rule, 10, jnp.ones(net.size))
 
     for i, motion in enumerate(twins):
         expected = [
@@ -149,3 +157,21 @@ def test_generation_equals_a_closed_loop_by_hand(float64, first):
     np.testing.assert_allclose(activity(net, state, 9, first=first), y, rtol=0, atol=1e-12)
     expected = (y[:, :2] - 0.1) / 0.8 * (4.0, 5.0) + (-2.0, 0.0)
     np.testing.assert_allclose(generate(net, state, 9, first=first), expected, rtol=0, atol=1e-12)
+
+
+def test_a_level_that_is_slower_moves_by_so_much_less(float64):
+    net, _ = drawn(3, learned_bias=True, initial_io="sensed")
+    motions, _ = ragged()
+    starts = np.zeros((3, 1, net.size))
+    plain = Recognition(iterations=1, starts=0, optimiser="descent", rate=0.1)
+    slow = plain.model_copy(update={"slower": {"cf": 0.1}})
+
+    free, held = (recognise_all(net, motions, starts=starts, settings=s) for s in (plain, slow))
+
+    for one, other in zip(free, held, strict=True):
+        cf, cs = net.units("cf"), net.units("cs")
+        assert np.abs(one.initial_state[cf]).max() > 0
+        np.testing.assert_allclose(other.initial_state[cf], 0.1 * one.initial_state[cf])
+        np.testing.assert_allclose(other.initial_state[cs], one.initial_state[cs])
+    with pytest.raises(ValueError, match="there are none"):
+        Recognition(slower={"cf": 0.1})

@@ -239,13 +239,14 @@ class Learner:
         every motion: the Cf_0 of one beside the Cs_0 of another. Nothing learned is a state of 0.
         """
         latest = {e.motion: e.initial_state for e in self.experiences}
-        levels, begin = [], 0  # that of IO goes with the first context level
+        levels, begin = [], 0  # those of IO go with the first context level's
         ends = np.cumsum(self.network.sizes)[1:]
         for level, end in zip(self.network.names[1:], ends, strict=True):
             closed = level != self.network.names[-1]
             known = [e.initial_state for e in self.repertoire_of(level)] if closed else []
-            states = [state[begin:end] for state in known or latest.values()]
-            levels.append(list({state.tobytes(): state for state in states}.values()))
+            units = self.network.units(level)
+            different = {s[units].tobytes(): s[begin:end] for s in known or latest.values()}
+            levels.append(list(different.values()))
             begin = end
         return np.array(
             [np.concatenate(each) for each in product(*levels)] or [np.zeros(self.network.size)]
