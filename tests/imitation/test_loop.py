@@ -111,7 +111,10 @@ def test_a_loop_measures_every_motion(scene, looped):
             "recognition_residual_cm",
             "model_error_cm",
             "reproduction_error_cm",
+            "reproduction_strokes_cm",
         }
+        strokes = [float(each) for each in errors["reproduction_strokes_cm"].split()]
+        assert np.mean(strokes) == pytest.approx(errors["reproduction_error_cm"], abs=0.01)
         assert row["buttons_due"] >= row["buttons_pressed"] >= 0
     assert not status.failed
     assert grown["levels"] == 2 and "rms_cs_to_cf" not in grown

@@ -10,7 +10,10 @@ from motionese.errors import SettingError, unknown
 from motionese.experiment.study import Study
 from motionese.imitation import checked, setting_names
 
-PRESETS = ("default", "paper", "three_stages", "settled", "desk_arm", "shapes")
+PRESETS = (
+    *("default", "order", "free", "paper", "three_stages", "settled"),
+    *("desk_arm", "shapes"),
+)
 WHOLE = ("network.levels", "factors")
 """Tables that stand for themselves: a file that has one leaves nothing of the default's."""
 OPEN_GROUPS = (
