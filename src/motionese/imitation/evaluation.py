@@ -11,7 +11,7 @@ from motionese.imitation.scene import Scene
 from motionese.task import PrimitiveSequence, Task
 
 ERRORS = ("imitation_error_cm", "recognition_residual_cm")
-"""Measures that are taken of a new sequence sought from the repertoire as well."""
+"""Measures that are taken of a new sequence sought in the other ways as well."""
 
 
 def imitate_novel(
@@ -20,10 +20,11 @@ def imitate_novel(
     novel: Sequence[PrimitiveSequence],
     taught: Iterable[PrimitiveSequence],
 ) -> tuple[list[Row], list[Imitation]]:
-    """Imitate every new sequence by recognition alone, once by long search and once by a short one.
+    """Imitate every new sequence by recognition alone, sought in three ways.
 
-    The long one goes as far as it leads. The short one starts from all that was learned, in every
-    combination, and stays near it: it tells what is in the repertoire.
+    A long search goes as far as it leads. A short one starts from all that was learned, in every
+    combination, and stays near it: it tells what is in the repertoire. In the third the fastest
+    context level keeps what it has in the repertoire, and only the levels above are sought.
 
     Args:
         scene: Robot and caregiver.
@@ -38,22 +39,36 @@ def imitate_novel(
     taught = set(taught)
     pairs = {pair for sequence in taught for pair in sequence.pairs()}
     settings = scene.settings.evaluation
-    occasion, repertoire = "new motions", learner.repertoire()
+    occasion, starts = "new motions", learner.repertoire()
     imitated = imitate(scene, learner, novel, settings.recognition, occasion)
-    known = imitate(scene, learner, novel, settings.repertoire, occasion, starts=repertoire)
+    ways = {"repertoire": settings.repertoire}
+    if above := learner.network.names[2:]:
+        ways["slow_alone"] = settings.repertoire.model_copy(update={"levels": above})
+    others = {
+        way: imitate(scene, learner, novel, recognition, occasion, starts=starts)
+        for way, recognition in ways.items()
+    }
     rows = [
         {
             "motion": each.sequence.name,
             "trained": pairs.issuperset(each.sequence.pairs()),
             **each.measures(scene),
             "status": each.found.status.ending.value,
-            **{f"repertoire_{name}": near.measures(scene)[name] for name in ERRORS},
-            "repertoire_status": near.found.status.ending.value,
+            **{
+                f"{way}_{name}": value
+                for way, found in others.items()
+                for name, value in _found(scene, found[i]).items()
+            },
         }
-        for each, near in zip(imitated, known, strict=True)
+        for i, each in enumerate(imitated)
         if each.sequence not in taught
     ]
     return rows, imitated
+
+
+def _found(scene: Scene, each: Imitation) -> Row:
+    measures = each.measures(scene)
+    return {name: measures[name] for name in ERRORS} | {"status": each.found.status.ending.value}
 
 
 def sample_sequence(task: Task) -> PrimitiveSequence | None:
