@@ -38,6 +38,7 @@ from motionese.imitation import (
     network_row,
     newborn,
     next_stage,
+    role_tables,
     switched,
 )
 
@@ -208,6 +209,7 @@ def _evaluated(
         kept |= kept_of(scene.task, imitated)
         shown[False] = [*shown.get(False, []), *imitated]
     tables["slow_state_map.csv"] = map_slow_states(scene, learner)
+    tables |= role_tables(scene, learner, lesson)
     tables["online.csv"] = [
         {"taught": known, **row}
         for known, imitated in shown.items()

@@ -73,7 +73,9 @@ class Recognition(BaseModel):
 
     Attributes:
         iterations: Steps at most.
-        starts: Random starts beside those that are given.
+        recalled: Starts that are recalled: of all that was learned, what is nearest to what is
+            observed, so many at most.
+        starts: Random starts beside those that are recalled or given.
         spread: Standard deviation of the random starts.
         optimiser: Least squares (damped Gauss–Newton steps), plain gradient descent, with momentum,
             or Adam; the last three need some hundred iterations.
@@ -94,6 +96,7 @@ class Recognition(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     iterations: int = Field(default=100, ge=1)
+    recalled: int = Field(default=4, ge=1)
     starts: int = Field(default=3, ge=0)
     spread: float = Field(default=0.5, ge=0)
     optimiser: Optimiser | Literal["least_squares"] = "least_squares"

@@ -127,8 +127,7 @@ def recognised(
 ) -> RecognisedLesson:
     """Show fresh demonstrations of a lesson's motions and let a learner recognise them.
 
-    Recognition starts from all that was learned, see `Learner.repertoire`; nothing is performed,
-    and nothing learned.
+    Recognition starts from the repertoire; nothing is performed, and nothing learned.
 
     Args:
         scene: Robot and caregiver.
@@ -142,11 +141,9 @@ def recognised(
         for sequence, number in product(lesson, range(1, demonstrations + 1))
     ]
     values = [scene.as_own(sequence.start, watched) for sequence, _, watched in shown]
-    repertoire = learner.repertoire()
     found = recognise_all(
-        learner.network,
+        (learner.network, learner.memory),
         scene.to_recognise(values),
-        starts=np.broadcast_to(repertoire, (len(values), *repertoire.shape)),
         settings=learner.for_levels(settings),
         key=key_for(scene.seed, "recognition", "roles"),
     )

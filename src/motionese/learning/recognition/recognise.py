@@ -122,7 +122,8 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    recall = memory.nearest(network, batch) if memory is not None and memory.names else None
+    known = memory is not None and memory.names
+    recall = memory.nearest(network, batch, settings.recalled) if known else None
     if starts is None and recall is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     free = _starts(network, count, starts, recall, settings, key)
