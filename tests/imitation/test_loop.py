@@ -260,6 +260,11 @@ def test_evaluation_of_new_sequences(scene):
     lesson = PUSHING_BUTTONS.sequence("UR ↓↑↓")
     others, _ = imitate_novel(scene, learner, TRIPLES, (*taught, lesson))
     assert {row["motion"] for row in rows} - {row["motion"] for row in others} == {lesson.name}
+    rest, _ = imitate_novel(scene, learner, TRIPLES, scene.task.lesson("pairs and triples"))
+    assert {row["motion"] for row in rows} - {row["motion"] for row in rest} == {
+        "UR ↓↑←",
+        "UR ↓↑↓",
+    }
     kept = kept_of(scene.task, imitated)
     sample = next(each for each in imitated if each.sequence == sample_sequence(scene.task))
     assert np.array_equal(kept["activity"], sample.performance.activity)

@@ -207,7 +207,8 @@ def _evaluated(
         novel = scene.task.lesson(name)
         tables[f"{name}.csv"], imitated = imitate_novel(scene, learner, novel, taught)
         kept |= kept_of(scene.task, imitated)
-        shown[False] = [*shown.get(False, []), *imitated]
+        new = [each for each in imitated if each.sequence not in taught]
+        shown[False] = [*shown.get(False, []), *new]
     tables["slow_state_map.csv"] = map_slow_states(scene, learner)
     tables |= role_tables(scene, learner, lesson)
     tables["online.csv"] = [
