@@ -45,8 +45,8 @@ def decoded(lesson: RecognisedLesson) -> list[Row]:
       which the ways part: those before are negative. Score and chance are shares of demonstrations.
 
     Returns:
-        A row for each level and what is asked of it. There is none where nothing can be decoded: of
-        a single round of demonstrations, of constant activity, of a single class.
+        A row for each level and what is asked of it. There is none where nothing can be decoded:
+        from constant activity, of a single class, or of one that a single round has.
     """
     motions, network = generated(lesson), lesson.network
     rounds = [m.number for m in motions]
@@ -76,7 +76,13 @@ def class_score(
         labels: The class of every row.
         rounds: The round that each demonstration belongs to.
     """
-    names = sorted({name for own in labels for name in own})
+    rounds_of: dict[str, set[int]] = {}
+    for own, number in zip(labels, rounds, strict=True):
+        for name in own:
+            rounds_of.setdefault(name, set()).add(number)
+    if any(len(numbers) < 2 for numbers in rounds_of.values()):
+        return None
+    names = sorted(rounds_of)
     targets = [np.array([[float(name == n) for n in names] for name in own]) for own in labels]
     found = _cross_validated(activity, targets, rounds)
     if found is None:
@@ -117,12 +123,12 @@ def _cross_validated(
     activity: Sequence[ndarray], targets: Sequence[ndarray], rounds: Sequence[int]
 ) -> tuple[ndarray, ndarray, ndarray] | None:
     """Return, of all rows, what is told, what is true, and the mean that was fitted to. [R, k]"""
+    if len(set(rounds)) < 2:
+        return None
     parts = []
     for held_out in sorted(set(rounds)):
         own = [i for i, number in enumerate(rounds) if number == held_out]
         rest = [i for i, number in enumerate(rounds) if number != held_out]
-        if not rest:
-            return None
         x, z = (np.concatenate([each[i] for i in rest]) for each in (activity, targets))
         if not (np.ptp(x, axis=0).any() and np.ptp(z, axis=0).any()):
             return None

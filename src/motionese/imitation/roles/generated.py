@@ -50,7 +50,7 @@ def generated(lesson: RecognisedLesson) -> list[GeneratedMotion]:
     states, firsts = (np.array([getattr(d, n) for d in shown]) for n in ("initial_state", "first"))
     rows = max(len(d.seen) for d in shown)
     paths = lesson.bearing(generate(lesson.network, states, rows, first=firsts))
-    inside = activity(lesson.network, states, rows, first=firsts)
+    inside = activity(lesson.network, states, rows, first=firsts).astype(float)
     return [
         GeneratedMotion(d.sequence, d.number, d.begins, path[: len(d.seen)], y[: len(d.seen)])
         for d, path, y in zip(shown, paths, inside, strict=True)

@@ -164,7 +164,7 @@ def _forward(
         ends = best[every, last]
         back = [np.pad(best, ((0, 0), (rows, 0)), constant_values=np.inf) for rows in (0, 1, 2)]
         ways = [each[:, : best.shape[1]] for each in back]
-        ways.append(np.broadcast_to(np.where(is_first, ends.min() + 0.1, np.inf), best.shape))
+        ways.append(np.broadcast_to(np.where(is_first, ends.min(), np.inf), best.shape))
         ended.append(int(ends.argmin()))
         came.append(np.argmin(ways, axis=0))
         best = np.min(ways, axis=0) + now
