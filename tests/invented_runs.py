@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pandas as pd
+from invented_roles import role_tables
 
 from motionese.experiment import condition_named, read_settings
 from motionese.task import PUSHING_BUTTONS
@@ -20,7 +21,7 @@ def condition(name):
 def write_settings(root, study=STUDY, **facts):
     """Write the settings of a run folder."""
     settings = study.model_dump(mode="json")
-    facts = {"format": "motionese-run", "version": 3, "settings": settings} | facts
+    facts = {"format": "motionese-run", "version": 4, "settings": settings} | facts
     (root / "settings.json").write_text(json.dumps(facts))
 
 
@@ -43,7 +44,9 @@ def loops_table(condition, seed, rng, error, loops=LOOPS):
                 "recognition_residual_cm": 0.3 * base, "model_error_cm": 0.5 * base,
                 "buttons_due": 1, "buttons_pressed": int(loop > 2), "press_depth_mm": 2.0 * loop,
                 "press_depths_mm": " ".join([str(2.0 * loop)] * min(2, loop)),
-                "reproduction_error_cm": 0.2 * base, "status": "recognised", "seconds": 0.1,
+                "reproduction_error_cm": 0.2 * base,
+                "reproduction_strokes_cm": " ".join([f"{0.2 * base:.2f}"] * phase),
+                "status": "recognised", "seconds": 0.1,
             })  # fmt: skip
     return pd.DataFrame(rows)
 
@@ -143,12 +146,12 @@ def inside_arrays(rng, steps=42):
     }
 
 
-def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
+def write_run(root, condition, seed, *, end="finished", error=None, turn=None, study=STUDY):
     """Write a run's folder; `end` is how it ended, "unfinished" or "diverged" included."""
     folder = root / condition.folder / f"seed-{seed}"
     folder.mkdir(parents=True)
     if not (root / "settings.json").exists():
-        write_settings(root)
+        write_settings(root, study)
     rng = np.random.default_rng([seed, CONDITIONS.index(condition)])
     name = condition.name
     loops = 2 if end != "finished" else LOOPS
@@ -169,6 +172,7 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None):
         tables["slow_state_map.csv"] = map_table(
             name, seed, rng, TURN[name] if turn is None else turn
         )
+        tables |= role_tables(name, seed, rng, study.development(condition)[-1].lesson)
         np.savez_compressed(folder / "inside.npz", **inside_arrays(rng))
     for file, table in tables.items():
         table.to_csv(folder / file, index=False)

@@ -46,7 +46,7 @@ def test_a_new_folder_tells_settings_and_environment(tmp_path, settings):
     path = tmp_path / "runs" / "first"
     opened(path, settings)
     facts = json.loads((path / "settings.json").read_text())
-    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 3, "default")
+    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 4, "default")
     assert facts["settings"] == settings.model_dump(mode="json") == run_settings(path)
     made_with = json.loads((path / "environment.json").read_text())
     assert made_with["python"] == sys.version.split()[0]
@@ -94,8 +94,8 @@ def test_a_folder_that_is_not_ours_is_left_alone(tmp_path, settings):
         ("[]", "not written by motionese"),
         ('{"format": "motionese-run"', "cannot be read"),
         ('{"format": "motionese-run", "version": 1, "settings": {}}', "format 1"),
-        ('{"format": "motionese-run", "version": 3}', "holds no settings"),
-        ('{"format": "motionese-run", "version": 3, "settings": 5}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 4}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 4, "settings": 5}', "holds no settings"),
     ],
 )
 def test_settings_that_are_not_ours_are_refused(tmp_path, settings, content, told):

@@ -12,6 +12,7 @@ from numpy import ndarray
 
 from motionese.analysis.directions import true_strokes
 from motionese.analysis.facts import Facts, read_facts
+from motionese.analysis.map_numbers import map_numbers
 from motionese.analysis.run_files import read_end, read_inside, read_table
 from motionese.analysis.style import Look, looks_of
 from motionese.body import SimulatedRobot, open_body
@@ -22,6 +23,15 @@ from motionese.task import Task
 
 MAP = "slow_state_map"
 REPERTOIRE = ["imitation_error_cm", "recognition_residual_cm", "status"]
+ROLES = {
+    "exchanges": ["recognition", "motion_lower", "motion_upper", "demonstration", "split", "kind",
+                  "stroke", "follows"],
+    "lesions": ["motion", "demonstration", "lesion", "stroke", "ambiguous", "right"],
+    "decoding": ["level", "what", "row", "score", "chance"],
+    "symbols": ["motion", "demonstration", "read", "true", "edit_distance",
+                "boundary_error_steps"],
+}  # fmt: skip
+"""Tables of what role each level plays."""
 MEASURED = ["imitation_error_cm", "recognition_residual_cm", "model_error_cm"]
 
 
@@ -33,7 +43,8 @@ def leading_columns(study: Study) -> dict[str, list[str]]:
     new = [*who, "motion", "trained", *MEASURED, *of, "status"]
     new += [f"repertoire_{name}" for name in REPERTOIRE]
     ways = [f"{what}_{segment}_rad" for segment in (1, 2) for what in ("direction", "extent")]
-    loop = ["loop", "phase", "motion", *MEASURED, "reproduction_error_cm"]
+    loop = ["loop", "phase", "motion", *MEASURED]
+    loop += ["reproduction_error_cm", "reproduction_strokes_cm"]
     return {
         "loops": [*who, *loop, *of, "status", "seconds"],
         "development": [*who, "loop", "levels"],
@@ -41,6 +52,7 @@ def leading_columns(study: Study) -> dict[str, list[str]]:
         "online": [*who, "taught", "motion", "lag", MEASURED[0], "after_the_fact_error_cm"],
         "switches": [*who, "first", "second", "row", "steps"],
         MAP: [*who, "primitive", f"{top}_1", f"{top}_2", *ways],
+        **{name: [*who, *columns] for name, columns in ROLES.items()},
     }
 
 
@@ -59,6 +71,10 @@ class ExperimentData:
         slow_state_map: A row per primitive and point of the map.
         online: A row per sequence and lag at which it was followed while it was shown.
         switches: A row per demonstration that turned into another.
+        exchanges: A row per exchange of initial states between two motions: whose stroke follows.
+        lesions: A row per lesion, demonstration and stroke.
+        decoding: A row per level and what is decoded from it.
+        symbols: A row per demonstration and what was read out of the network.
     """
 
     folder: Path
@@ -69,6 +85,10 @@ class ExperimentData:
     slow_state_map: pd.DataFrame
     online: pd.DataFrame
     switches: pd.DataFrame
+    exchanges: pd.DataFrame
+    lesions: pd.DataFrame
+    decoding: pd.DataFrame
+    symbols: pd.DataFrame
     facts: Facts
 
     @property
@@ -105,6 +125,11 @@ class ExperimentData:
     def strokes(self) -> Mapping[str, tuple[float, float]]:
         """Every primitive's direction [rad] and extent [rad] as the robot sees it."""
         return true_strokes(self.task, self.robot.eye_position)
+
+    @cached_property
+    def map_numbers(self) -> pd.DataFrame:
+        """A row of numbers for each condition and seed that has a map."""
+        return map_numbers(self.slow_state_map, self.development, self.study, self.strokes)
 
     def inside(self, condition: str, seed: int) -> dict[str, ndarray] | None:
         """Return what was kept of a run's performances, or None; `RunFolderError` if damaged."""

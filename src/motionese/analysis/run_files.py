@@ -21,10 +21,19 @@ from motionese.errors import RunFolderError
 from motionese.experiment.run import ENDED, Run
 
 ENDINGS = ("finished", "diverged")
-WHOLE_NUMBERS = ("seed", "loop", "phase", "levels", "lag")
+WHOLE_NUMBERS = (
+    "seed", "loop", "phase", "levels", "lag", "demonstration", "stroke", "edit_distance"
+)  # fmt: skip
 KEPT = ("activity", "commanded", "sensed", "begins", "poses")
 """What `inside.npz` holds beside paths and effects."""
-WORDS = ("condition", "motion", "primitive", "status", "repertoire_status", "first", "second")
+WORDS = (
+    "condition", "motion", "primitive", "status", "repertoire_status", "first", "second",
+    "recognition", "motion_lower", "motion_upper", "split", "kind", "follows", "lesion", "level",
+    "what", "true",
+)  # fmt: skip
+MAY_BE_EMPTY = ("reproduction_strokes_cm", "read")
+"""Words of which there may be none."""
+YES_OR_NO = ("trained", "taught", "ambiguous", "right")
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 
@@ -122,7 +131,9 @@ def _check_columns(table: pd.DataFrame, columns: Sequence[str]) -> None:
 def _fits(column: str, values: "pd.Series[Any]") -> bool:
     if column in WORDS:
         return bool(values.notna().all())
-    if column in ("trained", "taught"):
+    if column in MAY_BE_EMPTY:
+        return True
+    if column in YES_OR_NO:
         return values.dtype.kind == "b"
     return values.dtype.kind in ("i" if column in WHOLE_NUMBERS else "iuf")
 

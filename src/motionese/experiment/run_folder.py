@@ -22,7 +22,7 @@ from motionese.experiment.run import Run
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 
-FORMAT, VERSION = "motionese-run", 3
+FORMAT, VERSION = "motionese-run", 4
 SETTINGS, ENVIRONMENT = "settings.json", "environment.json"
 LOCK, HOLDER = ".lock", ".lock-holder"
 REPORT = "report.html"
