@@ -62,7 +62,7 @@ def test_evaluation_recognises_as_learning_does_but_for_what_it_says():
     assert settings.evaluation.recognition.rate == 0.07
     assert settings.evaluation.recognition.iterations != settings.recognition.iterations
     own = read_settings(overrides=["evaluation.recognition.starts=9"])
-    assert (own.evaluation.recognition.starts, own.recognition.starts) == (9, 3)
+    assert (own.evaluation.recognition.starts, own.recognition.starts) == (9, 0)
 
 
 def test_a_file_is_laid_over_the_default(tmp_path):
@@ -137,7 +137,9 @@ def test_a_file_s_levels_are_all_there_are(tmp_path):
         "[training]\nbound = 5.0\n[recognition]\nbound = 100.0\n"
         '[[stages]]\nlesson = "primitives"\nlevels = ["io", "cf"]\nuntil = { loops = 2 }\n'
     )
-    assert list(read_settings(str(path)).network.levels) == ["io", "cf"]
+    settings = read_settings(str(path))
+    assert list(settings.network.levels) == ["io", "cf"]
+    assert settings.training.shared == {}, "the top level's states belong to single motions"
     path.write_text(
         "[network.levels]\ncf = { size = 9, tau = 4.0 }\ncs = { size = 2, tau = 9.0 }\n"
     )

@@ -37,6 +37,10 @@ def test_it_leaves_a_table_of_everything(undisturbed):
         "slow_state_map.csv",
         "online.csv",
         "switches.csv",
+        "exchanges.csv",
+        "lesions.csv",
+        "decoding.csv",
+        "symbols.csv",
         "inside.npz",
         "ended.json",
     }

@@ -10,7 +10,7 @@ from motionese.imitation import Scene, Stage, Until, imitation_loop, newborn
 from motionese.imitation.roles import exchanged, lesioned, recognised
 from motionese.task import PUSHING_BUTTONS
 
-LESSON = PUSHING_BUTTONS.lesson("branching pairs")
+LESSON = PUSHING_BUTTONS.lesson("branching")
 SMALL = ["network.levels.cf.size=8", "training.epochs=20", "recognition.iterations=5"]
 DEMONSTRATIONS = 2
 

@@ -109,6 +109,11 @@ def _over(table: Table, above: Table) -> Table:
         within = above.get(group) if group else above
         if isinstance(within, Mapping) and last in within:
             table = _laid_over(table, {group: {last: None}} if group else {last: None})
+    network = above.get("network")
+    levels = network.get("levels") if isinstance(network, Mapping) else None
+    if isinstance(levels, Mapping):  # whose top level has nothing to be shared
+        shared = {name: table["training"]["shared"].get(name, "none") for name in [*levels][1:-1]}
+        table = {**table, "training": {**table["training"], "shared": shared}}
     body, robot = above.get("body"), table["body"]["name"]
     if isinstance(body, Mapping) and body.get("name", robot) != robot:
         table = {**table, "body": {}}  # another robot has settings of its own
