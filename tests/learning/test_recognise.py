@@ -237,7 +237,7 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     trained, start = training_rule(Training(), learned), learner.free(learned)
     state, error = Iterate(start, trained.init(start), jnp.asarray(0)), ERRORS["squared"]
     training = operations(
-        run_epochs, state, learner, batch, trained, error, none, bound, None, KEY, 10
+        run_epochs, state, learner, batch, trained, error, none, bound, None, {}, KEY, 10
     )
     assert paid < starts * weights_gradient
     assert training > weights_gradient
