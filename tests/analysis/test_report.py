@@ -128,6 +128,7 @@ def test_the_page_tells_what_was_computed(whole):
     assert "All runs finished" in text
     assert "Drawn from the side" in text and "no GL here" in text
     assert "Efference copy." in text
+    assert "2 all conditions taught pairs 0.00 0.00 0.00 0 0.0 this lesson asks for no" in text
     assert "0, 1, 2, 3, 4, 5, 6, 7" in text
 
 

@@ -57,7 +57,9 @@ def normal_equations(net, motion, free, units, penalty):
     return loss + (prior * sought**2).sum(), curvature + np.diag(prior), slope + prior * sought
 
 
-def recognition(net, motion, free, units, *, iterations, bound, penalty, enough=-math.inf):
+def recognition(
+    net, motion, free, units, *, iterations, bound, penalty, paces=None, enough=-math.inf
+):
     """Take damped steps from one start.
 
     Returns:
@@ -72,7 +74,8 @@ def recognition(net, motion, free, units, *, iterations, bound, penalty, enough=
         stuck = (abs(free[units]) >= limit) & (free[units] * slope < 0)
         moving = np.flatnonzero(~stuck)
         system = curvature[np.ix_(moving, moving)]
-        system = system + damping * curvature.diagonal().max() * np.eye(len(moving))
+        held = np.ones(len(units)) if paces is None else 1.0 / np.asarray(paces)[units] ** 2
+        system = system + damping * curvature.diagonal().max() * np.diag(held[moving])
         trial = free.copy()
         for place, change in zip(moving, np.linalg.solve(system, slope[moving]), strict=True):
             trial[units[place]] = np.clip(free[units[place]] - change, -limit[place], limit[place])

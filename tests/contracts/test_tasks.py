@@ -51,12 +51,20 @@ def test_a_way_leads_from_place_to_place(task):
 
 
 @every_task
-def test_lessons_are_made_of_taught_pairs_and_new_sequences_are_no_lesson(task):
-    taught = {s for name in task.lessons for s in task.lesson(name)}
+def test_the_first_lesson_is_made_of_taught_pairs_and_every_lesson_leaves_something_new(task):
     new = {s for name in task.novel for s in task.lesson(name)}
-    assert new and not taught & new
-    named = {s for name in task.lessons if name != "branching pairs" for s in task.lesson(name)}
-    assert all(task.is_taught(s) for s in named)
+    first = task.lesson(next(iter(task.lessons)))
+    assert new.isdisjoint(first) and all(task.is_taught(s) for s in first)
+    for name in task.lessons:
+        assert new - set(task.lesson(name))
+
+
+@every_task
+def test_a_lesson_is_called_by_its_name_in_whatever_order_it_is_listed(task):
+    for name in ("primitives", *task.lessons):
+        lesson = task.lesson(name)
+        assert task.lesson_name(lesson) == task.lesson_name(lesson[::-1]) == name
+        assert task.lesson_name(lesson[1:]) == ""
 
 
 @every_task

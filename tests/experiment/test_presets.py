@@ -69,7 +69,7 @@ def test_a_file_is_laid_over_the_default(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text("[network]\ngain = 3.0\n\n[task.places]\nUR = [0.5, -0.3, 1.05]\n")
     settings = read_settings(str(path))
-    assert (settings.network.gain, settings.network.influence) == (3.0, 0.25)
+    assert (settings.network.gain, settings.network.influence) == (3.0, 0.5)
     assert list(settings.network.levels) == ["io", "cf", "cs"]
     assert settings.task.places == {"UR": (0.5, -0.3, 1.05)}
 

@@ -47,6 +47,19 @@ def test_it_leaves_a_table_of_everything(undisturbed):
     assert len(undisturbed["switches.csv"]) == 1
 
 
+@pytest.mark.slow
+def test_what_was_a_lesson_as_a_whole_is_nowhere_new(tmp_path):
+    small = read_settings(
+        overrides=[*SMALL, "stages.1.until.loops=1", "stages.1.lesson=pairs and triples"],
+        quick=True,
+    )
+    go_through(Run(TD_MD, 5, tmp_path), small, lambda loop: None)
+    left = left_on_disk(tmp_path)
+    new = {s.name for s in PUSHING_BUTTONS.lesson("triples")} - {"UR ↓↑←", "UR ↓↑↓"}
+    assert {row["motion"] for row in left["triples.csv"]} == new
+    assert {row["motion"] for row in left["online.csv"] if row["taught"] == "False"} == new
+
+
 def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_settings, undisturbed):
     run = Run(TD_MD, 5, tmp_path)
     assert (run.loops_done(), run.ended()) == (0, None)

@@ -31,6 +31,14 @@ def test_a_further_stage_is_lines_of_a_preset():
     assert {s.name for s in third[0]} == {"UR ↓↑←", "LR ↑←↓", "UR ←↓↑"}
 
 
+def test_any_list_of_sequences_is_a_lesson():
+    listed = ["UR ↓", "LR ↑←", "UR ←↓↑", "RAISE(R) + PUSH(R)", "UR ↓"]
+    stages = "0.lesson.TND", "1.lesson"
+    study = read_settings(overrides=[f"stages.{stage}={listed}" for stage in stages])
+    for lesson, _ in names(study, "TND/MD"):
+        assert [s.name for s in lesson] == ["UR ↓", "LR ↑←", "UR ←↓↑", "LR ↑↓"]
+
+
 def written(tmp_path, text):
     path = tmp_path / "mine.toml"
     path.write_text(text)

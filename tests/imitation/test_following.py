@@ -135,5 +135,7 @@ def test_the_repertoire_combines_the_levels_of_what_was_learned_last(scene):
     found = learner.repertoire()
 
     assert found.shape == (4, learner.network.size)
+    np.testing.assert_array_equal(learner.memory.initial_states, found)
+    assert np.isnan(learner.memory.errors).all(), "how well a combination was learned is not known"
     pairs = {(tuple(row[cf]), tuple(row[cs])) for row in found}
     assert pairs == {(tuple(a[cf]), tuple(b[cs])) for a in latest for b in latest}

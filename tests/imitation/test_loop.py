@@ -182,23 +182,6 @@ def test_memory_and_rehearsal(scene):
     assert loops(1, frozenset({"a"})) == [(3, "a"), (4, "b")]
 
 
-def test_recognition_starts_from_the_most_similar_motion_that_is_known(scene):
-    learner = learner_of(scene)
-    names = ["babbling", "UR ↓", "LR ↑", "UR ↓↑", "UR ←"]
-    states = [np.full(14, float(i)) for i in range(len(names))]
-    unknown = np.full(6, np.nan)
-    known = [
-        Experience(1, n, np.zeros((2, 6)), s, unknown) for n, s in zip(names, states, strict=True)
-    ]
-    learner = replace(learner, experiences=tuple(known))
-    start = {
-        name: learner.start_for(PUSHING_BUTTONS.sequence(name))[0]
-        for name in ("UR ↓↑←", "UR ←↓", "LR ↑←", "UR ↓")
-    }
-    assert start["UR ↓↑←"] == 3 and start["UR ←↓"] == 4 and start["LR ↑←"] == 2
-    assert start["UR ↓"] == 3, "the latest with the same beginning"
-
-
 def test_growth_keeps_what_was_learned(scene, looped):
     _, learner, _, _, _ = looped
     grown = learner.grown(scene.settings.network, key_for(3, "growth"))
@@ -277,6 +260,11 @@ def test_evaluation_of_new_sequences(scene):
     lesson = PUSHING_BUTTONS.sequence("UR ↓↑↓")
     others, _ = imitate_novel(scene, learner, TRIPLES, (*taught, lesson))
     assert {row["motion"] for row in rows} - {row["motion"] for row in others} == {lesson.name}
+    rest, _ = imitate_novel(scene, learner, TRIPLES, scene.task.lesson("pairs and triples"))
+    assert {row["motion"] for row in rows} - {row["motion"] for row in rest} == {
+        "UR ↓↑←",
+        "UR ↓↑↓",
+    }
     kept = kept_of(scene.task, imitated)
     sample = next(each for each in imitated if each.sequence == sample_sequence(scene.task))
     assert np.array_equal(kept["activity"], sample.performance.activity)

@@ -124,7 +124,7 @@ def test_what_first_comes_near_enough_is_chosen_and_stays_there(float64):
     bound, none = jnp.asarray(given["bound"]), jnp.asarray(0.0)
     units, begin, limit = jnp.arange(net.size), jnp.asarray(starts), jnp.asarray(enough)
     search = Search(net, motions.batch(), begin, units, bound, none, limit)
-    states, by_start, chosen = descend(search, rule, 10, jnp.ones(net.size))
+    states, by_start, chosen = descend(search, rule, 10)
 
     for i, motion in enumerate(twins):
         expected = [
@@ -173,5 +173,3 @@ def test_a_level_that_is_slower_moves_by_so_much_less(float64):
         assert np.abs(one.initial_state[cf]).max() > 0
         np.testing.assert_allclose(other.initial_state[cf], 0.1 * one.initial_state[cf])
         np.testing.assert_allclose(other.initial_state[cs], one.initial_state[cs])
-    with pytest.raises(ValueError, match="there are none"):
-        Recognition(slower={"cf": 0.1})

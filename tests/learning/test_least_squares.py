@@ -19,20 +19,22 @@ LEAST_SQUARES = Recognition(optimiser="least_squares", iterations=7, starts=0, b
 
 
 @pytest.mark.parametrize(
-    ("initial_io", "penalty", "levels", "bound"),
+    ("initial_io", "penalty", "levels", "bound", "slower"),
     [
-        ("sensed", 0.0, None, {"cf": 1.2}),
-        ("zero", 0.01, None, {"cf": 1.2, "cs": 9.0}),
-        ("sensed", 0.0, ("cs",), {"cs": 9.0}),
-        ("sensed", 0.02, ("cf",), {"cf": 0.7}),
+        ("sensed", 0.0, None, {"cf": 1.2}, {}),
+        ("zero", 0.01, None, {"cf": 1.2, "cs": 9.0}, {"cf": 0.3}),
+        ("sensed", 0.0, ("cs",), {"cs": 9.0}, {}),
+        ("sensed", 0.02, ("cf",), {"cf": 0.7}, {}),
     ],
 )
-def test_recognition_equals_damped_steps_by_hand(float64, initial_io, penalty, levels, bound):
+def test_recognition_equals_damped_steps_by_hand(
+    float64, initial_io, penalty, levels, bound, slower
+):
     net, arrays = drawn(3, learned_bias=True, initial_io=initial_io)
     motions, twins = ragged()
     starts = np.random.default_rng(2).normal(size=(3, 1, net.size))
     settings = LEAST_SQUARES.model_copy(
-        update={"penalty": penalty, "levels": levels, "bound": bound}
+        update={"penalty": penalty, "levels": levels, "bound": bound, "slower": slower}
     )
 
     found = recognise_all(net, motions, starts=starts, settings=settings, padded_to=(4, 9))
@@ -42,10 +44,12 @@ def test_recognition_equals_damped_steps_by_hand(float64, initial_io, penalty, l
     context = {None: range(2, 8), ("cs",): range(6, 8), ("cf",): range(2, 6)}[levels]
     widest = np.full(8, np.inf)
     widest[2:6], widest[6:] = bound.get("cf", np.inf), bound.get("cs", np.inf)
+    paces = np.where((np.arange(8) >= 2) & (np.arange(8) < 6), slower.get("cf", 1.0), 1.0)
     for each, motion, begin in zip(found, twins, starts[:, 0], strict=True):
         state, loss, _ = by_hand.recognition(
-            arrays, motion, begin, [*io, *context], iterations=7, bound=widest, penalty=penalty
-        )
+            arrays, motion, begin, [*io, *context],
+            iterations=7, bound=widest, penalty=penalty, paces=paces,
+        )  # fmt: skip
         np.testing.assert_allclose(each.initial_state, state, rtol=0, atol=1e-8)
         assert each.loss == pytest.approx(loss, rel=1e-9)
     kept = np.setdiff1d(np.arange(2, 8), context)

@@ -35,13 +35,45 @@ def test_sensitivities_equal_the_networks_and_those_by_hand(saved, model):
         network, jnp.asarray(u)[None], jnp.asarray(values)[None], jnp.asarray(share),
         jnp.arange(3, 12),
     )  # fmt: skip
-    np.testing.assert_allclose(found.potentials, potentials[0], rtol=0, atol=2e-5)
+    np.testing.assert_allclose(found.potentials[:-1], potentials[0], rtol=0, atol=2e-5)
     np.testing.assert_allclose(found.changes, changes[0], rtol=0, atol=2e-5)
     twin = by_hand(
         *(np.asarray(getattr(network, name), float) for name in ("weights", "bias", "tau")),
         SIZES, u, values, share[0], 7,
     )  # fmt: skip
     np.testing.assert_allclose(found.changes[:, 4], twin, rtol=0, atol=2e-5)
+
+
+def test_rows_that_follow_are_those_of_a_longer_window_nothing_was_observed_in(model):
+    regression, sensed = ErrorRegression(model, 100.0), window_of()
+    u = regression.begun(RNG.normal(0.0, 1.0, 12), sensed[0])
+    longer = regression.linearised(u, np.vstack([sensed, np.full((4, 3), np.nan)]))
+
+    here = regression.linearised(u, sensed)
+    outputs, changes = regression.continued(here, 4)
+
+    np.testing.assert_allclose(here.potentials, longer.potentials[:10], rtol=0, atol=1e-6)
+    np.testing.assert_allclose(outputs, longer.outputs[9:], rtol=0, atol=1e-6)
+    np.testing.assert_allclose(changes, longer.changes[9:], rtol=0, atol=1e-6)
+    assert longer.loss == pytest.approx(here.loss, rel=1e-6)
+
+
+def test_a_state_moved_to_has_its_own_error_and_the_sensitivities_from_before(model):
+    regression, sensed = ErrorRegression(model, 100.0), window_of()
+    regression.precision = np.arange(1.0, 10.0, dtype=np.float32)
+    u = regression.begun(RNG.normal(0.0, 1.0, 12), sensed[0])
+    here, mean = regression.linearised(u, sensed), u - np.float32(0.1)
+    near = u + np.where(np.arange(12) < 3, 0.0, 0.2).astype(np.float32)
+
+    moved, anew = (
+        regression.moved(here, near, sensed, mean),
+        regression.linearised(near, sensed, mean),
+    )
+
+    for name in ("outputs", "potentials", "loss", "cost"):
+        np.testing.assert_allclose(getattr(moved, name), getattr(anew, name), rtol=1e-5)
+    assert moved.changes is here.changes
+    assert moved.curvature is here.curvature
 
 
 def test_error_and_its_slope_are_those_of_what_was_observed(model):

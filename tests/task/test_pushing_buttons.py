@@ -23,6 +23,14 @@ def test_four_pairs_are_taught():
     assert names(PUSHING_BUTTONS.sequences(2)) - taught == {"LR ↑↓", "LL ↑↓"}
 
 
+def test_lessons_that_branch_teach_further_pairs():
+    lesson = {name: names(PUSHING_BUTTONS.lesson(name)) for name in PUSHING_BUTTONS.lessons}
+    assert lesson["branching"] - lesson["taught pairs"] == {"LR ↑↓"}
+    assert lesson["all pairs"] == names(PUSHING_BUTTONS.sequences(2))
+    triples = lesson["pairs and triples"] & names(PUSHING_BUTTONS.sequences(3))
+    assert triples == {"UR ↓↑←", "UR ↓↑↓"}
+
+
 def test_three_triples_are_made_of_taught_pairs_and_four_are_not():
     triples = PUSHING_BUTTONS.sequences(3)
     trained = {m.name for m in triples if PUSHING_BUTTONS.is_taught(m)}

@@ -20,10 +20,8 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.imitation.strokes import WITHIN
 from motionese.task import Task
-
-WITHIN = np.pi / 4
-"""A direction counts as right up to this far [rad] from a true one."""
 
 
 class Shares(NamedTuple):

@@ -10,11 +10,12 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from numpy import ndarray
 
-from motionese.analysis.directions import WITHIN, following
+from motionese.analysis.directions import following
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import level_names
 from motionese.analysis.style import ASTRAY
 from motionese.figure_style import FAINT, WIDTH
+from motionese.imitation.strokes import WITHIN
 
 HEAD = np.radians(150)
 """The barbs of an arrow point back by this angle."""

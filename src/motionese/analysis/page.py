@@ -75,6 +75,7 @@ def page(
         too_few=too_few,
         last_loops=LAST_LOOPS,
         effects=page_tables.effects_rows(effects),
+        lessons=page_tables.lessons_table(data.study),
         errors=page_tables.errors_table(measures, data),
         online=page_tables.online_table(data),
         map=page_tables.map_table(data.map_numbers, data),

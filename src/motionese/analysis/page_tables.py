@@ -12,6 +12,7 @@ from motionese.analysis.mochizuki2013.findings import Finding
 from motionese.analysis.seed_measures import Measures, last_loops
 from motionese.analysis.statistics import Estimate, estimate
 from motionese.analysis.while_shown import AT_ONCE, KINDS
+from motionese.experiment import Study, stage_lessons
 from motionese.task import Outcome
 
 MIDDLE = (2,)
@@ -51,6 +52,17 @@ def _tested(row: Sequence[Any]) -> list[str]:
     digits = 3 if measured.endswith("[1]") else 2
     interval = with_interval(Estimate(value, low, high, seeds), digits)
     return [what, measured, interval, number(p, 3), number(effect), str(seeds)]
+
+
+def lessons_table(study: Study) -> Table:
+    """Return what is taught in every stage, and what memory of order that demands."""
+    lessons = stage_lessons(study)
+    head = ["stage", "conditions", "lesson", *lessons[0].numbers, "what it asks for"]
+    rows = []
+    for each in lessons:
+        taught = [str(each.stage), each.conditions, each.name or each.sequences]
+        rows.append([*taught, *each.numbers.values(), each.demand.sentence])
+    return Table(head, rows)
 
 
 def errors_table(measures: Measures, data: ExperimentData) -> Table:

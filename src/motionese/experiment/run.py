@@ -38,6 +38,7 @@ from motionese.imitation import (
     network_row,
     newborn,
     next_stage,
+    role_tables,
     switched,
 )
 
@@ -206,8 +207,10 @@ def _evaluated(
         novel = scene.task.lesson(name)
         tables[f"{name}.csv"], imitated = imitate_novel(scene, learner, novel, taught)
         kept |= kept_of(scene.task, imitated)
-        shown[False] = [*shown.get(False, []), *imitated]
+        new = [each for each in imitated if each.sequence not in taught]
+        shown[False] = [*shown.get(False, []), *new]
     tables["slow_state_map.csv"] = map_slow_states(scene, learner)
+    tables |= role_tables(scene, learner, lesson)
     tables["online.csv"] = [
         {"taught": known, **row}
         for known, imitated in shown.items()

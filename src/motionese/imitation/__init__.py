@@ -22,6 +22,7 @@ from motionese.imitation.learner import (
 from motionese.imitation.loop import Imitation, Row, imitate, imitation_loop, network_row
 from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.imitation.performance import Performance, Trial, Watched, babble, perform, watch
+from motionese.imitation.roles.tables import role_tables
 from motionese.imitation.scene import Recordings, Scene
 from motionese.imitation.settings import Group, Settings, checked, setting_names
 from motionese.imitation.switching import Switch, sequence_of, switched
@@ -64,6 +65,7 @@ __all__ = [
     "perform",
     "read_learner",
     "recognised_while_shown",
+    "role_tables",
     "sample_sequence",
     "seen_error_cm",
     "sequence_of",

@@ -22,8 +22,8 @@ def imitate_novel(
 ) -> tuple[list[Row], list[Imitation]]:
     """Imitate every new sequence by recognition alone, sought in three ways.
 
-    A long search goes as far as it leads. A short one starts from all that was learned, in every
-    combination, and stays near it: it tells what is in the repertoire. In the third the fastest
+    A long search goes as far as it leads. A short one stays near what was learned, in any
+    combination of its levels: it tells what is in the repertoire. In the third the fastest
     context level keeps what it has in the repertoire, and only the levels above are sought.
 
     Args:
@@ -39,13 +39,13 @@ def imitate_novel(
     taught = set(taught)
     pairs = {pair for sequence in taught for pair in sequence.pairs()}
     settings = scene.settings.evaluation
-    occasion, starts = "new motions", learner.repertoire()
+    occasion = "new motions"
     imitated = imitate(scene, learner, novel, settings.recognition, occasion)
     ways = {"repertoire": settings.repertoire}
     if above := learner.network.names[2:]:
         ways["slow_alone"] = settings.repertoire.model_copy(update={"levels": above})
     others = {
-        way: imitate(scene, learner, novel, recognition, occasion, starts=starts)
+        way: imitate(scene, learner, novel, recognition, occasion)
         for way, recognition in ways.items()
     }
     rows = [

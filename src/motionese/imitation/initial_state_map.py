@@ -3,6 +3,8 @@
 A primitive's initial state is held but for its two slowest units, which run over a grid.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
@@ -10,6 +12,7 @@ from numpy import ndarray
 from motionese.imitation.learner import Learner
 from motionese.imitation.loop import Row, imitate
 from motionese.imitation.scene import Scene
+from motionese.imitation.strokes import stroke
 from motionese.learning import generate
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence
@@ -75,7 +78,8 @@ def slow_map_of(
     states = with_slow_state(network, state, grid)
     firsts = np.repeat(first[None], len(grid), axis=0)
     seen = scene.body.bearing(generate(network, states, 2 * length, first=firsts))
-    segments = [_strokes(seen, 0, length - 1), _strokes(seen, length - 1, 2 * length - 1)]
+    corners = [seen[:, row] for row in (0, length - 1, 2 * length - 1)]
+    segments = [stroke(begin, end) for begin, end in pairwise(corners)]
     rows = []
     for point, *strokes in zip(grid, *segments, strict=True):
         row: Row = {"primitive": primitive.name}
@@ -84,10 +88,3 @@ def slow_map_of(
             row |= {f"direction_{number}_rad": direction, f"extent_{number}_rad": extent}
         rows.append(row)
     return rows
-
-
-def _strokes(seen: Float[ndarray, "G T 2"], begin: int, end: int) -> Float[ndarray, "G 2"]:
-    """Return direction [rad] and extent [rad] of the seen hand's way between two rows."""
-    azimuth, elevation = np.moveaxis(seen[:, end] - seen[:, begin], -1, 0)
-    right = -azimuth * np.cos(seen[:, begin, 1])
-    return np.stack([np.arctan2(elevation, right), np.hypot(right, elevation)], axis=-1)

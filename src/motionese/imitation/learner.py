@@ -35,8 +35,8 @@ from motionese.learning import (
     write_fit,
 )
 from motionese.learning.error import ERRORS
+from motionese.learning.memory import Memory
 from motionese.network import MTRNN, grow
-from motionese.task import PrimitiveSequence, common_beginning
 
 S = TypeVar("S", Training, Recognition)
 BABBLING = "babbling"
@@ -218,20 +218,6 @@ class Learner:
         assert self.network.channels is not None, "a learner's network is drawn for a body"
         return self.network.channels
 
-    def start_for(self, sequence: PrimitiveSequence) -> Float[ndarray, " N"]:
-        """Return where recognition of a sequence begins: the latest state of the most similar one.
-
-        The most similar known motion has the longest common beginning; without any, the state
-        after babbling, or 0.
-        """
-        best = np.zeros(self.network.size)
-        longest = -1
-        for experience in self.experiences:
-            common = common_beginning(experience.motion, sequence.name)
-            if common >= longest:
-                longest, best = common, experience.initial_state
-        return best
-
     def repertoire(self) -> Float[ndarray, "R N"]:
         """Return initial states of all that it has learned, in every combination of its levels.
 
@@ -251,6 +237,13 @@ class Learner:
         return np.array(
             [np.concatenate(each) for each in product(*levels)] or [np.zeros(self.network.size)]
         )
+
+    @property
+    def memory(self) -> Memory:
+        """The repertoire as what recognition recalls its starts from."""
+        states = self.repertoire()
+        unknown = np.full((len(states), len(self.channels)), np.nan)
+        return Memory(tuple(map(str, range(len(states)))), states, unknown)
 
     def grown(self, settings: NetworkSettings, key: Array) -> "Learner":
         """Return the learner with the next level opened, its initial states at 0."""

@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
-from numpy import ndarray
 
 from motionese.caregiver import Manner
 from motionese.imitation.development import Stage
@@ -60,19 +58,16 @@ def imitate(
     settings: Recognition,
     *occasion: str | int,
     manner: Manner | None = None,
-    starts: Float[ndarray, "M N"] | None = None,
 ) -> list[Imitation]:
     """Take steps 1 to 3 with some sequences; nothing is learned.
 
-    Recognition starts from given initial states, or from that of the most similar motion.
+    Recognition starts from what is nearest in the repertoire to what was seen.
     """
     watched = [scene.show(s, *occasion, manner=manner) for s in sequences]  # step 1
     values = [scene.as_own(s.start, w) for s, w in zip(sequences, watched, strict=True)]
-    begin = [learner.start_for(s)[None] if starts is None else starts for s in sequences]
     found = recognise_all(  # step 2
-        learner.network,
+        (learner.network, learner.memory),
         scene.to_recognise(values, names=[s.name for s in sequences]),
-        starts=np.array(begin),
         settings=learner.for_levels(settings),
         key=key_for(scene.seed, "recognition", *occasion),
     )

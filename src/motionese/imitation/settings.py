@@ -110,12 +110,27 @@ class Online(Group):
     switches: int = Field(ge=0)
 
 
+class Roles(Group):
+    """What role each level plays: how it is looked at.
+
+    Attributes:
+        demonstrations: Of every motion of the last lesson, afresh.
+        adam: Iterations of Adam, by which they are recognised as controls; 0 for none.
+        pace: Of the fastest context level in the second control, see `Recognition.slower`.
+    """
+
+    demonstrations: int = Field(ge=1)
+    adam: int = Field(ge=0)
+    pace: float = Field(gt=0, le=1)
+
+
 class Evaluation(Group):
     """Recognition of new motions and of shown ones, and the map of the slow initial states."""
 
     recognition: Recognition
     repertoire: Recognition
     online: Online
+    roles: Roles
     map_points: int = Field(ge=2)
     map_range: float = Field(gt=0, allow_inf_nan=False)
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field
 
 Optimiser = Literal["descent", "momentum", "adam"]
 Schedule = Literal["constant", "cosine"]
@@ -73,7 +73,9 @@ class Recognition(BaseModel):
 
     Attributes:
         iterations: Steps at most.
-        starts: Random starts beside those that are given.
+        recalled: Starts that are recalled: of all that was learned, what is nearest to what is
+            observed, so many at most.
+        starts: Random starts beside those that are recalled or given.
         spread: Standard deviation of the random starts.
         optimiser: Least squares (damped Gauss–Newton steps), plain gradient descent, with momentum,
             or Adam; the last three need some hundred iterations.
@@ -83,7 +85,8 @@ class Recognition(BaseModel):
             go on is to fit noise.
         rate: Rate of gradient descent, times 0.3 after 70 % of the iterations.
         momentum: Of `optimiser = "momentum"`.
-        slower: By level: its updates of gradient descent are multiplied by this.
+        slower: By level: at which share of the others' pace its initial states move, so that a
+            change is first sought in the others.
         bound: Largest |u_0| of the initial states, for all context levels or by level.
         penalty: Weight of Σ u_0² beside the summed squared error; a prior at 0.
         tolerance: Largest residual of a channel, as a share of its range, that still counts as
@@ -93,6 +96,7 @@ class Recognition(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     iterations: int = Field(default=100, ge=1)
+    recalled: int = Field(default=4, ge=1)
     starts: int = Field(default=3, ge=0)
     spread: float = Field(default=0.5, ge=0)
     optimiser: Optimiser | Literal["least_squares"] = "least_squares"
@@ -100,16 +104,7 @@ class Recognition(BaseModel):
     still: float = Field(default=1e-4, ge=0, lt=1)
     rate: Rate = 0.2
     momentum: float = Field(default=0.9, ge=0, lt=1)
-    slower: dict[str, Annotated[float, Field(ge=0, le=1)]] = {}
+    slower: dict[str, Annotated[float, Field(gt=0, le=1)]] = {}
     bound: Bound = 100.0
     penalty: float = Field(default=0.0, ge=0)
     tolerance: float = Field(default=0.1, gt=0)
-
-    @model_validator(mode="after")
-    def _least_squares_has_no_rate(self) -> "Recognition":
-        if self.slower and self.optimiser == "least_squares":
-            raise ValueError(
-                "slower multiplies the updates of gradient descent; with optimiser = "
-                "'least_squares' there are none"
-            )
-        return self

@@ -11,7 +11,7 @@ precision p, so that what the window does not tell is as it was learned. A step 
 (Jᵀ J + p + λ) Δc = −(Jᵀ r + p (c − m)) (Levenberg 1944).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy import ndarray
@@ -31,8 +31,9 @@ class Linearised:
 
     Attributes:
         outputs: y of all units in every row. [T, N]
-        potentials: u of all units in every row. [T, N]
+        potentials: u of all units in every row, and in the one that follows. [T + 1, N]
         changes: ∂y of the channels in every row by the K unknowns. [T, K, D]
+        change: ∂u of all units in the row that follows by the unknowns. [K, N]
         loss: The summed squared residuals of what was observed.
         cost: The same with what the prior adds.
         curvature: Jᵀ J + p. [K, K]
@@ -42,6 +43,7 @@ class Linearised:
     outputs: ndarray
     potentials: ndarray
     changes: ndarray
+    change: ndarray
     loss: float
     cost: float
     curvature: ndarray
@@ -65,6 +67,7 @@ class ErrorRegression:
         self._width, self._senses_first = len(model.channels), model.senses_first
         self._bound, self.damping = bound, FIRST
         self.precision = np.zeros(model.size - self._width, np.float32)
+        self._nothing = np.full(self._width, np.nan)
         self._unknown = np.eye(model.size, dtype=np.float32)[self._width :]
         self._step = np.empty_like(self._scaled)
         self._diagonal = self._step.reshape(-1)[:: model.size + 1]
@@ -78,14 +81,15 @@ class ErrorRegression:
         return u
 
     def predicted(self, u: ndarray, first: ndarray, rows: int) -> tuple[ndarray, ndarray]:
-        """Return outputs and potentials [T, N] of so many rows in closed loop.
+        """Return outputs [T, N] of rows in closed loop, and potentials [T + 1, N] with the next.
 
         Args:
             u: Potentials in the first row, see `begun`. [N]
             first: What was sensed in it, in the unit interval; NaN where nothing was. [D]
             rows: T.
         """
-        outputs, potentials = np.empty((2, rows, len(u)), np.float32)
+        outputs = np.empty((rows, len(u)), np.float32)
+        potentials = np.empty((rows + 1, len(u)), np.float32)
         with np.errstate(over="ignore"):  # of a potential far below 0, whose y is 0
             for t in range(rows):
                 x = self._output(u)
@@ -94,6 +98,7 @@ class ErrorRegression:
                     known = np.flatnonzero(np.isfinite(first))
                     x[known] = first[known]
                 u = self._following(u, x)
+        potentials[rows] = u
         return outputs, potentials
 
     def linearised(self, u: ndarray, sensed: ndarray, mean: ndarray | None = None) -> Linearised:
@@ -101,38 +106,37 @@ class ErrorRegression:
 
         Args:
             u: Potentials in the first row, see `begun`. [N]
-            sensed: The rows in the unit interval; NaN where nothing was observed, and in rows that
-                are still to come. [T, D]
+            sensed: The rows in the unit interval; NaN where nothing was observed. [T, D]
             mean: The prior's m, potentials of all units; this state itself if left out. [N]
         """
-        width, seen = self._width, np.isfinite(sensed)
-        outputs, potentials = np.empty((2, len(sensed), len(u)), np.float32)
-        changes = np.zeros((len(sensed), len(self._unknown), width), np.float32)
-        change = self._unknown
-        with np.errstate(over="ignore"):
-            for t in range(len(sensed)):
-                x = self._output(u)
-                outputs[t], potentials[t] = x, u
-                slope = x - x * x
-                if t:
-                    np.multiply(change[:, :width], slope[:width], out=changes[t])
-                else:  # the window begins at what was sensed in it
-                    known = np.flatnonzero(seen[0])
-                    x[known], slope[known] = sensed[0, known], 0
-                np.multiply(self._scaled, slope[:, None], out=self._step)
-                np.add(self._diagonal, self._keep, out=self._diagonal)
-                change = np.dot(change, self._step)
-                u = self._following(u, x)
-        told = np.flatnonzero(seen[1:])  # the first row predicts nothing
-        residual = outputs[1:, :width].reshape(-1)[told] - sensed[1:].reshape(-1)[told]
-        residual = residual.astype(np.float32)
+        outputs, potentials = self.predicted(u, sensed[0], len(sensed))
+        slopes = outputs - outputs * outputs
+        slopes[0, np.flatnonzero(np.isfinite(sensed[0]))] = 0  # begins at what was sensed in it
+        changes, change = self._changed(self._unknown, slopes)
+        changes[0] = 0  # and predicts nothing there
+        told, residual = self._residual(outputs, sensed)
         jacobian = changes[1:].transpose(1, 0, 2).reshape(len(change), -1)[:, told]
         loss, curvature, slope = residual @ residual, jacobian @ jacobian.T, jacobian @ residual
-        away = potentials[0, width:] - mean[width:] if mean is not None else 0 * slope
+        away = self._away(u, mean)
         curvature.reshape(-1)[:: len(away) + 1] += self.precision
         slope += self.precision * away
-        cost = loss + self.precision @ away**2
-        return Linearised(outputs, potentials, changes, float(loss), float(cost), curvature, slope)
+        cost = float(loss + self.precision @ away**2)
+        return Linearised(outputs, potentials, changes, change, float(loss), cost, curvature, slope)
+
+    def moved(
+        self, here: Linearised, u: ndarray, sensed: ndarray, mean: ndarray | None = None
+    ) -> Linearised:
+        """Return what is predicted from another state near by, with the sensitivities as here."""
+        outputs, potentials = self.predicted(u, sensed[0], len(sensed))
+        _, residual = self._residual(outputs, sensed)
+        loss = float(residual @ residual)
+        cost = loss + float(self.precision @ self._away(u, mean) ** 2)
+        return replace(here, outputs=outputs, potentials=potentials, loss=loss, cost=cost)
+
+    def continued(self, here: Linearised, rows: int) -> tuple[ndarray, ndarray]:
+        """Return outputs [A, N] of rows that follow, and their `changes` [A, K, D]."""
+        outputs, _ = self.predicted(here.potentials[-1], self._nothing, rows)
+        return outputs, self._changed(here.change, outputs - outputs * outputs)[0]
 
     def stepped(self, u: ndarray, here: Linearised) -> ndarray:
         """Return where a damped step leads [N]; what is pushed beyond its bound stays there."""
@@ -152,6 +156,27 @@ class ErrorRegression:
         self.damping *= EASED if better else RAISED
         self.damping = min(max(self.damping, LEAST), LARGEST)
         return better
+
+    def _changed(self, change: ndarray, slopes: ndarray) -> tuple[ndarray, ndarray]:
+        """Return `changes` over rows of slopes y(1 − y) [T, N], and `change` after them."""
+        changes = np.empty((len(slopes), len(change), self._width), np.float32)
+        for t, slope in enumerate(slopes):
+            np.multiply(change[:, : self._width], slope[: self._width], out=changes[t])
+            np.multiply(self._scaled, slope[:, None], out=self._step)
+            np.add(self._diagonal, self._keep, out=self._diagonal)
+            change = np.dot(change, self._step)
+        return changes, change
+
+    def _residual(self, outputs: ndarray, sensed: ndarray) -> tuple[ndarray, ndarray]:
+        """Return which values after the first row were observed, and what is wrong with them."""
+        told = np.flatnonzero(np.isfinite(sensed[1:]))
+        residual = outputs[1:, : self._width].reshape(-1)[told] - sensed[1:].reshape(-1)[told]
+        return told, residual.astype(np.float32)
+
+    def _away(self, u: ndarray, mean: ndarray | None) -> ndarray:
+        """Return c − m. [K]"""
+        away: ndarray = u[self._width :] - (u if mean is None else mean)[self._width :]
+        return away
 
     def _following(self, u: ndarray, x: ndarray) -> ndarray:
         following: ndarray = np.dot(x, self._scaled)

@@ -27,6 +27,9 @@ LEAST_VARIANCE = 1e-3
 """Of a context unit that is the same in all that was learned."""
 BOUND = 100.0
 """Largest |u| of a context unit in the window's first row."""
+FORGETS = 0.9
+"""How long a step took is remembered as this share of it, each time that no step fits: one that
+the machine held up is not taken for what steps take."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,20 +170,21 @@ class OnlineRecognition:
         here = self._tried(self._linearised(self._u))
         steps = 0
         while steps < self._steps and self._fits(began, self._steps - steps):
-            here, steps = self._improved(here), steps + 1
+            steps += 1
+            here = self._improved(here, last=steps == self._steps)
         return self._result(here, steps)
 
     def _generated(self, name: str) -> tuple[ndarray, ndarray]:
         """Return a learned motion's channels [L, D] in the unit interval, and its potentials."""
         nothing, u = np.full(len(self.model.channels), np.nan), self.model.begin(name).u
         y, potentials = self._regression.predicted(u, nothing, self.model.lengths[name])
-        return y[:, : len(nothing)], potentials
+        return y[:, : len(nothing)], potentials[:-1]
 
     def _append(self, sensed: ndarray) -> None:
         """Take in the next row; the state is carried on where the window slides."""
         if len(self._window) == self._window.maxlen:
             u = self._regression.begun(self._u, self._window[0])
-            self._u = self._regression.predicted(u, self._window[0], 2)[1][1]
+            self._u = self._regression.predicted(u, self._window[0], 1)[1][1]
         self._window.append(sensed)
         self._belief.observe(sensed)
         self._row += 1
@@ -196,11 +200,9 @@ class OnlineRecognition:
             np.copyto(self._window[place], sensed, where=np.isfinite(sensed))
 
     def _linearised(self, u: ndarray) -> Linearised:
-        coming = np.full((self.ahead, len(self._seen)), np.nan)
-        rows = np.concatenate([np.array(self._window), coming])
-        return self._regression.linearised(
-            self._regression.begun(u, rows[0]), rows, self._expected_begin()
-        )
+        rows = np.array(self._window)
+        u = self._regression.begun(u, rows[0])
+        return self._regression.linearised(u, rows, self._expected_begin())
 
     def _expected_begin(self) -> ndarray | None:
         """Return the learned motion's state in the window's first row, where it reaches so far."""
@@ -212,7 +214,7 @@ class OnlineRecognition:
     def _tried(self, here: Linearised) -> Linearised:
         """Begin anew with the motion believed in most, where it explains the last rows better."""
         rows = np.array(self._window)
-        recent = self._squared(here.outputs[: len(rows)], rows)[-BACK:]
+        recent = self._squared(here.outputs, rows)[-BACK:]
         if not np.nanmean(recent) > self._accuracy**2 if np.isfinite(recent).any() else True:
             return here
         name, place = self._belief.likeliest
@@ -246,12 +248,19 @@ class OnlineRecognition:
                 f"of {1000 * self._budget_s:g} ms: take a shorter window, or fewer rows ahead",
                 stacklevel=3,
             )
+        self._step_s *= FORGETS
         return False
 
-    def _improved(self, here: Linearised) -> Linearised:
+    def _improved(self, here: Linearised, last: bool) -> Linearised:
+        """Take a step where it makes the error smaller; after the last, J stays as it was."""
         began = time.perf_counter()
         u = self._regression.stepped(here.potentials[0], here)
-        there = self._linearised(u)
+        if last:
+            rows = np.array(self._window)
+            u = self._regression.begun(u, rows[0])
+            there = self._regression.moved(here, u, rows, self._expected_begin())
+        else:
+            there = self._linearised(u)
         self._step_s = time.perf_counter() - began
         if self._regression.better(there, here):
             self._u = u
@@ -260,17 +269,18 @@ class OnlineRecognition:
 
     def _result(self, here: Linearised, steps: int) -> OnlineResult:
         width, rows = len(self._seen), np.array(self._window)
-        shown = here.outputs[:, :width].astype(np.float64)
+        ahead, changes = self._regression.continued(here, self.ahead)
+        shown = np.concatenate([here.outputs, ahead])[:, :width].astype(np.float64)
         np.copyto(shown[0], rows[0], where=np.isfinite(rows[0]))
         values = int(np.isfinite(rows[1:]).sum())
         error = np.sqrt(here.loss / values) / (INNER_HIGH - INNER_LOW) if values else np.nan
         path = self.model.from_unit(shown)
         return OnlineResult(
             row=self._row,
-            potentials=here.potentials[len(rows) - 1],
+            potentials=here.potentials[-2],
             path=path[: len(rows)],
             ahead=path[len(rows) :],
-            spread=self._spread(here, len(rows)),
+            spread=self._spread(here, changes, values),
             belief=self._belief.shares,
             learned=self._belief.likeliest,
             error=float(error),
@@ -278,16 +288,15 @@ class OnlineRecognition:
             steps=steps,
         )
 
-    def _spread(self, here: Linearised, rows: int) -> ndarray:
+    def _spread(self, here: Linearised, changes: ndarray, values: int) -> ndarray:
         """Return the standard deviation of the rows ahead [A, D], in the channels' units.
 
         What is observed lies around the rows as it has so far, the unknowns lie around those of
         learned motions: the covariance of what the window leaves open follows by Bayes' rule, and
         that of the rows ahead by their sensitivities.
         """
-        width, values = len(self._seen), np.isfinite(np.array(self._window)[1:]).sum()
         variance = (here.loss + KNOWN * self._accuracy**2) / (values + KNOWN)
-        change = here.changes[rows:].transpose(1, 0, 2).reshape(len(here.slope), -1)
+        change = changes.transpose(1, 0, 2).reshape(len(here.slope), -1)
         left = np.linalg.solve(here.curvature, change)
-        unit = np.sqrt(variance * (1 + (change * left).sum(0))).reshape(-1, width)
+        unit = np.sqrt(variance * (1 + (change * left).sum(0))).reshape(len(changes), -1)
         return np.asarray(unit * (self.model.high - self.model.low) / (INNER_HIGH - INNER_LOW))

@@ -1,6 +1,7 @@
 """Tasks: places, ways, primitives, the sequences they allow, and what counts as success."""
 
 from motionese.errors import TaskError, unknown
+from motionese.task.memory_demand import MemoryDemand, memory_demand
 from motionese.task.pushing_buttons import PUSHING_BUTTONS
 from motionese.task.sequence import Place, Primitive, PrimitiveSequence, common_beginning
 from motionese.task.shapes import SHAPES
@@ -24,6 +25,7 @@ __all__ = [
     "TASKS",
     "Arc",
     "Attempt",
+    "MemoryDemand",
     "Outcome",
     "Place",
     "Primitive",
@@ -32,6 +34,7 @@ __all__ = [
     "ViaPoints",
     "Way",
     "common_beginning",
+    "memory_demand",
     "straight",
     "task_named",
 ]

@@ -65,6 +65,8 @@ PUSHING_BUTTONS = Task(
     lessons={
         "taught pairs": ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑"),
         "branching": ("UR ↓↑", "LR ↑↓", "LR ↑←", "UR ←↓", "UL ↓↑"),
+        "all pairs": ("UR ↓↑", "LR ↑↓", "LR ↑←", "UR ←↓", "UL ↓↑", "LL ↑↓"),
+        "pairs and triples": ("LR ↑←", "LR ↑↓", "UR ↓↑←", "UR ↓↑↓", "UR ←↓", "UL ↓↑"),
     },
     novel={"triples": ("UR ↓↑↓", "UR ↓↑←", "LR ↑↓↑", "LR ↑←↓", "UR ←↓↑", "UL ↓↑↓", "LL ↑↓↑")},
     fixtures=files(__package__).joinpath("pushing_buttons.xml").read_text(encoding="utf-8"),

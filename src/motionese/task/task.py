@@ -63,7 +63,7 @@ class Task:
         name: The task's name in settings.
         title: The task in words.
         outcomes: The columns that `achieved` measures, the main one first.
-        untaught: Pairs of primitives' names that are possible and never taught.
+        untaught: Pairs of primitives' names that are possible and left out of the first lesson.
         lessons: What may be taught, by name, as sequences' names; 'primitives' is always there.
         novel: Sequences that are imitated after the last loop, by the name of their table.
         fixtures: MuJoCo XML of the task's things (`<mujoco>` with what is attached to the world).
@@ -116,7 +116,7 @@ class Task:
         return tuple(PrimitiveSequence(chain) for chain in chains)
 
     def is_taught(self, sequence: PrimitiveSequence) -> bool:
-        """Whether it has no pair that the caregiver leaves out."""
+        """Whether it has no pair that the first lesson leaves out."""
         return not any((a.name, b.name) in self.untaught for a, b in sequence.pairs())
 
     def lesson(self, named: str | Iterable[str]) -> tuple[PrimitiveSequence, ...]:
@@ -130,6 +130,11 @@ class Task:
         known = {**self.lessons, **self.novel}
         listed = known.get(named, (named,)) if isinstance(named, str) else named
         return tuple(dict.fromkeys(self.sequence(text) for text in listed))
+
+    def lesson_name(self, lesson: Iterable[PrimitiveSequence]) -> str:
+        """Return what the lesson of these sequences is called; empty where it has no name."""
+        sequences, names = set(lesson), ("primitives", *self.lessons)
+        return next((name for name in names if set(self.lesson(name)) == sequences), "")
 
     def sequence(self, text: str) -> PrimitiveSequence:
         """Read a sequence: place and signs ('UR ↓↑'), or primitives ('PUSH(R)+RAISE(R)').

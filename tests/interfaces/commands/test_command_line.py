@@ -30,6 +30,9 @@ def test_several_values_may_follow_an_option(written, meant):
         (["reproduce", "--help"], "10 means seeds 0 to 9"),
         (["--version"], "motionese 0."),
         (["presets"], "paper: The paper to the letter"),
+        (["presets"], "  stage 1, TND/MD, TND/MND: taught pairs (UR ↓↑, LR ↑←, UR ←↓, UL ↓↑)\n"),
+        (["presets"], "  stage 3, all conditions: UR ↓↑←, LR ↑←↓, UR ←↓↑\n"),
+        (["presets"], "    this lesson asks for no memory of order (D_corner 1.07, D_last 0.29, "),
         (["presets", "default"], "until = { loops = 15 }"),
     ],
 )

@@ -4,7 +4,7 @@
 import os
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from typer import Argument, Option
@@ -12,6 +12,9 @@ from typer import Argument, Option
 from motionese.errors import SettingError, needs, unknown
 from motionese.interfaces.commands.exit_status import WRONG, plainly
 from motionese.interfaces.commands.recording_options import Texts
+
+if TYPE_CHECKING:
+    from motionese.experiment import StageLesson
 
 EXPERIMENT = ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas", "scipy")
 MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn", "websockets")}
@@ -85,14 +88,17 @@ def report(run: Annotated[Path, Argument(help="A run folder.", metavar="RUN")]) 
 
 
 def presets(name: Annotated[str | None, Argument(help="The preset to print.")] = None) -> None:
-    """List the presets, or print one to copy and edit."""
+    """List the presets with what their lessons demand of memory, or print one to copy and edit."""
     with plainly("stopped"):
         _check_extra("presets")
+        from motionese.experiment import read_settings, stage_lessons
         from motionese.experiment.presets import PRESETS, preset_text
 
         if name is None:
             for each in PRESETS:
                 typer.echo(f"{each}: {preset_text(each).splitlines()[0].removeprefix('# ')}")
+                for lesson in stage_lessons(read_settings(each)):
+                    typer.echo(_described(lesson))
         elif name in PRESETS:
             typer.echo(preset_text(name), nl=False)
         else:
@@ -133,6 +139,16 @@ def teach(
             token=token,
             browser=not no_browser,
         )
+
+
+def _described(lesson: "StageLesson") -> str:
+    """Return a stage's lesson and its demand in two lines."""
+    numbers = ", ".join(f"{name} {value}" for name, value in lesson.numbers.items())
+    taught = f"{lesson.name} ({lesson.sequences})" if lesson.name else lesson.sequences
+    return (
+        f"  stage {lesson.stage}, {lesson.conditions}: {taught}\n"
+        f"    {lesson.demand.sentence} ({numbers})"
+    )
 
 
 def _check_extra(command: str, extra: str = "experiment") -> None:

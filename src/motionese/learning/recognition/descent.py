@@ -4,7 +4,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optax
-from jaxtyping import Array, Float
+from jaxtyping import Array
 
 from motionese.learning.error import error_of
 from motionese.learning.objective import predictions
@@ -15,15 +15,8 @@ _Descent = tuple[Array, optax.OptState, Array, Array, Array]
 
 
 @eqx.filter_jit
-def descend(
-    search: Search,
-    rule: optax.GradientTransformation,
-    iterations: int,
-    shares: Float[Array, " K"],
-) -> Found:
+def descend(search: Search, rule: optax.GradientTransformation, iterations: int) -> Found:
     """Descend by an update rule from every start, so many updates at most.
-
-    Updates of what is sought are multiplied by `shares`.
 
     Only the gradient of the initial states is asked for, so that of the weights is never computed.
     """
@@ -45,7 +38,7 @@ def descend(
         best = jnp.where(better[:, None], sought, best)
         updates, memory = rule.update(slope, memory)
         sought = jnp.clip(
-            optax.apply_updates(sought, updates * shares), -search.limit, search.limit
+            optax.apply_updates(sought, updates * search.paces), -search.limit, search.limit
         )
         return sought, memory, best, jnp.where(better, each, best_loss), taken + going
 

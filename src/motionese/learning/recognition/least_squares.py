@@ -3,11 +3,11 @@
 Equation (3) is a sum of squared residuals r of a few dozen unknowns c, the free initial states.
 With their Jacobian J from one scan forward (see `network.sensitivity`), a step solves
 
-    (Jᵀ V J + p + λ) Δc = −(Jᵀ V r + p c)        (Levenberg 1944, Marquardt 1963)
+    (Jᵀ V J + p + λ / s²) Δc = −(Jᵀ V r + p c)   (Levenberg 1944, Marquardt 1963)
 
-V being the weights of the residuals, p the penalty. A step that makes the loss smaller is taken and
-λ falls; another is not, and λ rises. Steps stay short where little is known, so that what is found
-stays near the start: near what the network has learned.
+V being the weights of the residuals, p the penalty, s the paces at which levels move. A step that
+makes the loss smaller is taken and λ falls; another is not, and λ rises. Steps stay short where
+little is known, so that what is found stays near the start: near what the network has learned.
 """
 
 from typing import NamedTuple
@@ -151,7 +151,7 @@ def _stepped(search: Search, now: _Progress) -> Float[Array, "B K"]:
     damping = jnp.maximum(now.damping * diagonal, TINY)
     damped = (
         now.curvature * (free[:, :, None] & free[:, None])
-        + jnp.eye(len(limit)) * damping[:, None, None]
+        + jnp.eye(len(limit)) / search.paces**2 * damping[:, None, None]
     )
     slope = jnp.where(free, now.slope, 0.0)
     change = jax.vmap(lambda a, b: jax.scipy.linalg.solve(a, b, assume_a="pos"))(damped, slope)

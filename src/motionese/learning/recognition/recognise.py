@@ -122,19 +122,22 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    recall = memory.nearest(network, batch) if memory is not None and memory.names else None
+    known = memory is not None and memory.names
+    recall = memory.nearest(network, batch, settings.recalled) if known else None
     if starts is None and recall is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     free = _starts(network, count, starts, recall, settings, key)
+    units = _sought(network, motions, settings)
     search = Search(
         network,
         batch,
         free,
-        _sought(network, motions, settings),
+        units,
         network.per_unit(settings.bound, jnp.inf),
         jnp.asarray(settings.penalty, free.dtype),
         _enough(memory, recall, count, free.shape[1]),
         jnp.asarray(settings.still, free.dtype),
+        network.per_unit(settings.slower, 1.0)[units],
     )
     return judged(network, motions, batch, _found(search, settings), settings)
 
@@ -153,8 +156,7 @@ def _found(search: Search, settings: Recognition) -> Found:
     rule = recognition_rule(
         settings.optimiser, settings.rate, settings.momentum, settings.iterations
     )
-    shares = search.network.per_unit(settings.slower, 1.0)[search.units]
-    return descend(search, rule, settings.iterations, shares)
+    return descend(search, rule, settings.iterations)
 
 
 def _sought(network: MTRNN, motions: Motions, settings: Recognition) -> Int[Array, " K"]:

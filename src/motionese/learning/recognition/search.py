@@ -39,6 +39,8 @@ class Search(NamedTuple):
             its motions is to fit noise, at the cost of what was not observed). −∞ to go on for as
             long as it helps and keep the smallest loss. [S, M]
         still: Damped steps end where one makes the loss smaller by less than this share.
+        paces: How readily each unit moves: a share of its updates in gradient descent; in damped
+            steps a change of a tenth the pace costs a hundred times the damping. 1 if left out. [K]
     """
 
     network: MTRNN
@@ -49,6 +51,7 @@ class Search(NamedTuple):
     penalty: Float[Array, ""]
     enough: Float[Array, "S M"]
     still: float | Float[Array, ""] = 1e-4
+    paces: Float[Array, " K"] | float = 1.0
 
     @property
     def repeated(self) -> Batch:
