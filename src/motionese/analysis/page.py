@@ -1,14 +1,11 @@
 """The report's page, made of its parts by one template; nothing in it is asked of the network."""
 
 from collections.abc import Sequence
-from importlib import resources
 from itertools import groupby
 
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
-from motionese import __version__
 from motionese.analysis import mochizuki2013, page_tables
 from motionese.analysis.experiment_data import ROLES, ExperimentData
 from motionese.analysis.facts import flat
@@ -21,6 +18,7 @@ from motionese.analysis.roles.role_figures import last_lessons
 from motionese.analysis.roles.role_shares import slow_followed
 from motionese.analysis.roles.role_table import role_table
 from motionese.analysis.seed_measures import LAST_LOOPS, Measures
+from motionese.analysis.templates import rendered
 from motionese.analysis.verdicts import Judgement, claims_table
 
 
@@ -56,13 +54,9 @@ def page(
     shown: dict[str, list[tuple[str, str, Markup]]] = {}
     for f in figures:
         shown.setdefault(f.section, []).append((f.name, f.caption, Markup(f.drawing.inline)))
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    return environment.from_string(_part("report.html.jinja")).render(
-        style=Markup(_part("report.css")),
+    return rendered(
+        "report.html.jinja",
         name=data.folder.resolve().name,
-        version=__version__,
         question=question,
         answer=answer,
         results=results,
@@ -98,7 +92,3 @@ def _last_errors(measures: Measures) -> str:
     last = measures.last_error.median().dropna().sort_values()
     told = ", ".join(f"{error:.1f} cm in {name}" for name, error in last.items())
     return f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
-
-
-def _part(name: str) -> str:
-    return resources.files("motionese.analysis").joinpath(name).read_text(encoding="utf-8")
