@@ -186,7 +186,6 @@ def test_settings_of_the_plan(name):
 
 def test_other_settings_are_not_those_of_the_plan():
     assert preset_of(read_settings("order", ["network.gain=3"])) is None
-    assert preset_of(read_settings("order", ["evaluation.roles.adam=800"])) == "order"
 
 
 def test_the_answer_where_everything_holds():

@@ -68,7 +68,7 @@ def test_ctrl_c_stops_it_while_it_starts_its_workers(begin):
 
 @pytest.mark.slow
 def test_several_presets_go_through_one_pool_and_end_with_one_report(begin, here, undisturbed):
-    several = [*REPRODUCE, "--preset", "default", "order", "--seeds", "5"]
+    several = [*REPRODUCE, "--preset", "default", "order", "--seeds", "5-5"]
     output, errors = (process := begin(*several)).communicate(timeout=240)
     assert process.returncode == 0, errors
     assert output.splitlines()[3].startswith("3 loops a run, 2 at a time; ")

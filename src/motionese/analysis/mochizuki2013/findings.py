@@ -71,13 +71,8 @@ class Finding(NamedTuple):
 
 
 def preset_of(study: Study) -> str | None:
-    """Return which of the plan's presets runs were made with, or None for other settings.
-
-    Whether states are recognised by Adam as well, as controls, makes no difference to the rest.
-    """
-    controls = [f"evaluation.roles.adam={study.evaluation.roles.adam}"]
-    presets = (ORDER, DEFAULT, FREE)
-    return next((name for name in presets if read_settings(name, controls) == study), None)
+    """Return which of the plan's presets runs were made with, or None for other settings."""
+    return next((name for name in (ORDER, DEFAULT, FREE) if read_settings(name) == study), None)
 
 
 def findings(tables: Tables) -> list[Finding]:
