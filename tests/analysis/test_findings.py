@@ -184,6 +184,10 @@ def test_settings_of_the_plan(name):
     assert preset_of(read_settings(name)) == name
 
 
+def test_controls_beside_the_plan_make_no_other_settings():
+    assert preset_of(read_settings("order", ["evaluation.roles.adam=800"])) == "order"
+
+
 def test_other_settings_are_not_those_of_the_plan():
     assert preset_of(read_settings("order", ["network.gain=3"])) is None
 

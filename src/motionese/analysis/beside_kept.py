@@ -44,7 +44,8 @@ SHOWN = {
         *("untrained_spread_cm", "untrained_repertoire_cm", "untrained_slow_alone_cm"),
     ),
     "Symbols, recall and decoders": (
-        *("symbols_right", "boundaries_right", "recall_ambiguous_1_cm", "recall_ambiguous_2_cm"),
+        *("symbols_right", "boundaries_right", "symbols_right_alone"),
+        *("recall_ambiguous_1_cm", "recall_ambiguous_2_cm"),
         *("direction_from_cf", "direction_from_cs", "order_from_cf", "order_from_cs"),
     ),
 }

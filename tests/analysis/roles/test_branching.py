@@ -8,14 +8,10 @@ from motionese.analysis.roles.branching import (
     NO_CHOICE,
     branch_chance,
     branches,
-    branching_row,
     ways_on,
     without_cases,
 )
-from motionese.experiment import read_settings
 from motionese.task import PUSHING_BUTTONS
-
-MANNER = read_settings().caregiver
 
 
 def lesson(*names):
@@ -25,7 +21,7 @@ def lesson(*names):
 def test_the_papers_pairs_do_not_branch():
     pairs = PUSHING_BUTTONS.lesson("taught pairs")
     assert branches(pairs) == {} and ways_on(pairs) == {}
-    assert branching_row(pairs, MANNER) is None and np.isnan(branch_chance(pairs))
+    assert np.isnan(branch_chance(pairs))
     assert without_cases(pairs) == [NO_BRANCH]
 
 
@@ -34,7 +30,6 @@ def test_a_lesson_that_branches_after_its_first_stroke():
     ways = ("UR ←", "UR ↓")
     assert branches(branching) == {("LR ↑↓", 2): ways, ("LR ↑←", 2): ways}
     assert ways_on(branching) == {"LR ↑": ways}
-    assert branching_row(branching, MANNER) == MANNER.primitive_rows == 14
     assert branch_chance(branching) == 0.5
     assert without_cases(branching) == []
 
@@ -42,7 +37,7 @@ def test_a_lesson_that_branches_after_its_first_stroke():
 def test_a_lesson_that_branches_later():
     later = lesson("UR ↓↑←", "UR ↓↑↓", "LL ↑")
     assert set(branches(later)) == {("UR ↓↑←", 3), ("UR ↓↑↓", 3)}
-    assert ways_on(later) == {} and branching_row(later, MANNER) == 28
+    assert ways_on(later) == {}
     assert without_cases(later) == [NO_CHOICE]
 
 

@@ -49,7 +49,7 @@ def test_all_figures_of_a_lesson_that_asks_for_order(data, table):
     found = drawn(data, table)
     assert list(found) == ALL
     assert "seed of median order over the map: TD/MD" in found["order_map"].caption
-    assert "motions branch" in words(found["order_decoded"].figure)
+    assert "the ways part" in words(found["order_decoded"].figure)
     assert "chance" in words(found["lesions"].figure)
     assert {"TD/MD", "TND/MND", "LR ↑↓", "↑↓"} <= set(words(found["symbols"].figure))
 

@@ -81,10 +81,20 @@ def test_what_lesions_spare():
 
 
 def test_what_is_read_out():
-    columns = ["edit_distance", "boundary_error_steps"]
-    found = read_out(table(columns, (0, 2), (0, 3), (1, 0), (2, np.nan)))
+    columns = ["level", "reference", "edit_distance", "boundary_error_steps"]
+    found = read_out(
+        table(
+            columns,
+            *(("cf", "taught", *row) for row in ((0, 2), (0, 3), (1, 0), (2, np.nan))),
+            ("cs", "taught", 3, np.nan),
+            ("io", "taught", 3, np.nan),
+            ("cf", "alone", 1, np.nan),
+        ),
+        "cf",
+    )
     assert found["symbols_right"][RUN] == 0.5
     assert found["boundaries_right"][RUN] == 0.5, "of those that are read right"
+    assert found["symbols_right_alone"][RUN] == 0 and found["boundaries_right_alone"].empty
 
 
 def test_what_is_decoded_before_motions_part():
@@ -93,16 +103,17 @@ def test_what_is_decoded_before_motions_part():
         ("cf", "direction", np.nan, 0.9),
         ("cs", "direction", np.nan, 0.3),
         ("cs", "position", np.nan, 0.2),
-        ("cs", "order", 12, 0.8),
-        ("cs", "order", 13, 0.6),
-        ("cs", "order", 14, 0.1),
-        ("cf", "order", 14, 1.0),
+        ("cs", "order", -2, 0.8),
+        ("cs", "order", -1, 0.6),
+        ("cs", "order", 0, 0.1),
+        ("cf", "order", 3, 1.0),
     )
-    found = decoded(rows, "cf", "cs", {"TD/MD": 14})
+    found = decoded(rows, "cf", "cs")
     assert found["direction_from_cf"][RUN] == 0.9 and found["direction_from_cs"][RUN] == 0.3
     assert found["position_from_cs"][RUN] == 0.2 and found["position_from_cf"].empty
     assert found["order_from_cs"][RUN] == pytest.approx(0.7) and found["order_from_cf"].empty
-    assert decoded(rows, "cf", "cs", {"TD/MD": None})["order_from_cs"].empty
+    unbranched = decoded(rows[rows["what"] != "order"].drop(columns="row"), "cf", "cs")
+    assert unbranched["order_from_cs"].empty and unbranched["direction_from_cf"][RUN] == 0.9
 
 
 def test_what_motions_are_taken_to_begin_with():

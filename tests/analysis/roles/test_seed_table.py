@@ -15,9 +15,9 @@ COLUMNS = """
     first_by_cf_adam_slower first_by_cs_adam_slower order_by_cf_adam_slower
     order_by_cs_adam_slower separation_adam_slower first_intact first_without_cf first_without_cs
     first_cut branch_intact branch_without_cf branch_without_cs branch_cut symbols_right
-    boundaries_right recall_ambiguous_1_cm recall_other_1_cm recall_ambiguous_2_cm
-    recall_other_2_cm right_elements direction_from_cf direction_from_cs position_from_cf
-    position_from_cs order_from_cf order_from_cs
+    boundaries_right symbols_right_alone boundaries_right_alone recall_ambiguous_1_cm
+    recall_other_1_cm recall_ambiguous_2_cm recall_other_2_cm right_elements direction_from_cf
+    direction_from_cs position_from_cf position_from_cs order_from_cf order_from_cs
 """
 
 

@@ -144,8 +144,8 @@ def _generalised(tables: Tables, found: Sequence[Finding]) -> str:
     told = _compared(tables, ORDER, column, own, ("better than", "worse than"))
     error = _median(tables, ORDER, TD_MD, column)
     return (
-        f"after the lesson that asks for order {TD_MD} imitates untrained triples, from the "
-        f"repertoire, ({error} cm off) {told} ({_runs(tables, ORDER)})"
+        f"after the lesson that asks for order {TD_MD} imitates untrained triples from the "
+        f"repertoire ({error} cm off) {told} ({_runs(tables, ORDER)})"
     )
 
 

@@ -71,8 +71,16 @@ class Finding(NamedTuple):
 
 
 def preset_of(study: Study) -> str | None:
-    """Return which of the plan's presets runs were made with, or None for other settings."""
-    return next((name for name in (ORDER, DEFAULT, FREE) if read_settings(name) == study), None)
+    """Return which of the plan's presets runs were made with, or None for other settings.
+
+    How many demonstrations roles are measured of, and by which controls beside, may differ.
+    """
+    for name in (ORDER, DEFAULT, FREE):
+        preset = read_settings(name)
+        evaluation = preset.evaluation.model_copy(update={"roles": study.evaluation.roles})
+        if preset.model_copy(update={"evaluation": evaluation}) == study:
+            return name
+    return None
 
 
 def findings(tables: Tables) -> list[Finding]:

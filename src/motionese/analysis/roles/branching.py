@@ -10,7 +10,6 @@ from itertools import permutations
 
 import numpy as np
 
-from motionese.caregiver import Manner
 from motionese.task import PrimitiveSequence, common_beginning
 
 NO_CHOICE = (
@@ -43,12 +42,6 @@ def ways_on(lesson: Lesson) -> dict[str, tuple[str, ...]]:
     """Return, by first primitive, the ways on where motions that begin with it part after it."""
     first = {s.name: PrimitiveSequence(s.primitives[:1]).name for s in lesson}
     return {first[motion]: ways for (motion, n), ways in branches(lesson).items() if n == 2}
-
-
-def branching_row(lesson: Lesson, manner: Manner) -> int | None:
-    """Return the first row of the earliest ambiguous stroke, or None where there is none."""
-    begins = {sequence.name: manner.begins(sequence) for sequence in lesson}
-    return min((begins[motion][n - 1] for motion, n in branches(lesson)), default=None)
 
 
 def branch_chance(lesson: Lesson) -> float:

@@ -21,16 +21,14 @@ def order_decoded(
     looks: Looks,
     levels: Mapping[str, str],
     rate_hz: float,
-    branching: int | None,
 ) -> Figure:
     """Draw the score of decoders of the order against time, a panel a level.
 
     Args:
-        decoding: A row per run, level, what is decoded and row of time.
+        decoding: A row per run, level, what is decoded and row, counted from where ways part.
         looks: How each condition is drawn.
         levels: The panels' titles by level.
         rate_hz: Rows per second [Hz].
-        branching: The row in which the first ambiguous stroke begins.
     """
     order = decoding[(decoding["what"] == "order") & decoding["row"].notna()]
     figure = Figure(figsize=(WIDTH, 3.4))
@@ -38,21 +36,20 @@ def order_decoded(
     for axes, (level, title) in zip(panels, levels.items(), strict=True):
         own = order[order["level"] == level]
         for name, look in looks.items():
-            rows = own[own["condition"] == name].groupby("row")["score"]
-            found = np.array([estimate(v.to_numpy(dtype=float))[:3] for _, v in rows])
+            rows = own[own["condition"] == name].groupby(["row", "seed"])["score"].mean()
+            scores = rows.unstack("seed")
+            found = np.array([estimate(v)[:3] for v in scores.to_numpy(dtype=np.float64)])
             if len(found):
-                time = np.array([row for row, _ in rows], dtype=float) / rate_hz
+                time = scores.index.to_numpy(dtype=np.float64) / rate_hz
                 axes.fill_between(time, *found.T[1:], color=look.colour, alpha=0.16, linewidth=0)
                 axes.plot(time, found[:, 0], **look.curve(), markevery=EVERY, label=name)
         chance = order.groupby("row")["chance"].mean()
         axes.plot(chance.index / rate_hz, chance, color=FAINT, linewidth=0.9, linestyle=":")
-        if branching is not None:
-            axes.axvline(branching / rate_hz, color=FAINT, linewidth=1.0)
-        axes.set(title=title, xlabel="time [s]", ylim=(-0.03, 1.05))
+        axes.axvline(0.0, color=FAINT, linewidth=1.0)
+        axes.set(title=title, xlabel="time since the ways part [s]", ylim=(-0.03, 1.05))
         light_grid(axes)
-        _name(axes, (0.0, float(chance.iloc[0])), "chance", (3, 3))
-        if branching is not None:
-            _name(axes, (branching / rate_hz, 0.0), "motions branch", (4, 3))
+        _name(axes, (chance.index[0] / rate_hz, float(chance.iloc[0])), "chance", (0, -12))
+        _name(axes, (0.0, 0.0), "the ways part", (4, 3))
     panels[0].set_ylabel("order told right [share]")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, ncols=max(len(handles), 1), loc="outside upper center")

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy import ndarray
 
-from motionese.analysis.directions import WITHIN
 from motionese.figure_style import FAINT, PAPER, WIDTH
+from motionese.imitation.strokes import WITHIN
 
 DIRECTIONS = colormaps["twilight_shifted"]
 """A colour for every direction, the same in print for those that are told apart without colour."""

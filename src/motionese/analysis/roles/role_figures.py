@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from motionese.analysis.curves import Looks, along_stages
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import level_names
-from motionese.analysis.roles.branching import Lesson, branch_chance, branching_row, ways_on
+from motionese.analysis.roles.branching import Lesson, branch_chance, ways_on
 from motionese.analysis.roles.decoding_figure import order_decoded
 from motionese.analysis.roles.lesion_figure import lesions
 from motionese.analysis.roles.order_map_figure import order_map
@@ -44,13 +44,17 @@ def role_figures(data: ExperimentData, table: pd.DataFrame) -> Iterator[RoleFigu
     looks = data.looks
     lessons = last_lessons(data)
     chances = pd.Series([branch_chance(lesson) for lesson in lessons.values()])
-    shown = data.symbols[data.symbols["demonstration"] == 1]
+    shown = data.symbols[
+        (data.symbols["demonstration"] == 1)
+        & (data.symbols["level"] == level_names(data.study)[0])
+        & (data.symbols["reference"] == "taught")
+    ]
     seeds = _typical(table, "symbols_right")
     examples = {c: _of(shown, c, seed) for c, seed in seeds.items()}
     yield from table_figures(table, looks, float(chances.mean()), examples=examples)
     yield from _recall(data)
     yield from _maps(data, table, lessons)
-    yield from _decoded(data, lessons)
+    yield from _decoded(data)
 
 
 def last_lessons(data: ExperimentData) -> dict[str, Lesson]:
@@ -98,12 +102,17 @@ def table_figures(
             lesions(table, looks, chance, yours),
         )
     if table["symbols_right"].notna().any():
-        said = " On the right, what one run of each condition reads; in pink: wrong."
+        said = (
+            " On the right, what is read in the first demonstrations of the median run of each "
+            "condition; in pink: wrong."
+        )
         yield RoleFigure(
             "symbols",
-            "Primitives as symbols. While the network performs a motion, its sequence is read out "
-            "of Cf without being told the boundaries. Sequence read right: of edit distance 0; "
-            "boundaries: of those, all within two steps of where the strokes were shown to begin. "
+            "Primitives as symbols. While the network generates a motion that it has recognised, "
+            "its sequence is read out of the activity of Cf, by that of the lesson's strokes in "
+            "other demonstrations, and without being told how many there are or where one ends. "
+            "Sequence read right: of edit distance 0; boundaries: of those, all within two steps "
+            "of where the strokes were shown to begin. "
             f"{MEDIANS}{points}{said if examples else ''}",
             symbols(table, looks, examples or {}, yours),
         )
@@ -144,23 +153,20 @@ def _maps(
     )
 
 
-def _decoded(data: ExperimentData, lessons: Mapping[str, Lesson]) -> Iterator[RoleFigure]:
+def _decoded(data: ExperimentData) -> Iterator[RoleFigure]:
     below, top = level_names(data.study)
     if not (data.decoding["what"] == "order").any():
         return
-    rows = (branching_row(lesson, data.study.caregiver) for lesson in lessons.values())
     titles = {below: f"Decoded from {below.capitalize()}", top: f"Decoded from {top.capitalize()}"}
     yield RoleFigure(
         "order_decoded",
-        "The order, decoded from the activity of each level at every moment of a motion: the share "
-        "of fresh demonstrations of which a linear decoder, tested on motions that it was not "
-        "fitted to, tells which way the motion will go on. Medians over seeds with bootstrap 95 % "
-        "intervals; upright line: where the motions part.",
-        order_decoded(
-            data.decoding, data.looks, titles, data.robot.rate_hz,
-            min((row for row in rows if row is not None), default=None),
-        ),
-    )  # fmt: skip
+        "The order, decoded from the activity of each level at every moment: the share of fresh "
+        "demonstrations of which a linear decoder, fitted to others, tells which way the motion "
+        "goes on. Time is counted from where the ways part (upright line): before it only memory "
+        "can tell. What a level holds need not be heard by the others; that lesions and exchanges "
+        "show. Medians over seeds with bootstrap 95 % intervals; dotted: chance.",
+        order_decoded(data.decoding, data.looks, titles, data.robot.rate_hz),
+    )
 
 
 def _typical(table: pd.DataFrame, column: str) -> dict[str, int]:

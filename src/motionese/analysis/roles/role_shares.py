@@ -4,8 +4,7 @@ In names of columns `cf` is the level below the top one and `cs` the top one, wh
 called. A run that has no case of something has no value.
 """
 
-from collections.abc import Mapping
-
+import numpy as np
 import pandas as pd
 
 WHO = ["condition", "seed"]
@@ -63,29 +62,35 @@ def spared(lesions: pd.DataFrame, below: str, top: str) -> ByRun:
     return found
 
 
-def read_out(symbols: pd.DataFrame) -> ByRun:
-    """Return the share of sequences read out right, and of those the share of right boundaries."""
-    right = symbols["edit_distance"] == 0
-    rows = symbols[right]
-    return {
-        "symbols_right": _share(symbols, right),
-        "boundaries_right": _share(rows, rows["boundary_error_steps"] <= WITHIN_STEPS),
-    }
+def read_out(symbols: pd.DataFrame, below: str) -> ByRun:
+    """Return the share of sequences read out of a level, and of those that of right boundaries.
+
+    They are read by the signatures of the lesson's strokes; with a suffix by those of primitives
+    that are generated alone.
+    """
+    found: ByRun = {}
+    for reference, suffix in (("taught", ""), ("alone", "_alone")):
+        rows = symbols[(symbols["level"] == below) & (symbols["reference"] == reference)]
+        right = rows[rows["edit_distance"] == 0]
+        found[f"symbols_right{suffix}"] = _share(rows, rows["edit_distance"] == 0)
+        within = right["boundary_error_steps"] <= WITHIN_STEPS
+        found[f"boundaries_right{suffix}"] = _share(right, within)
+    return found
 
 
-def decoded(decoding: pd.DataFrame, below: str, top: str, until: Mapping[str, int | None]) -> ByRun:
+def decoded(decoding: pd.DataFrame, below: str, top: str) -> ByRun:
     """Return the decoders' scores by what they read and from which level.
 
-    That of the order is the mean over the rows before the first ambiguous stroke, which are those
-    `until` a row by condition.
+    That of the order is the mean over the rows before the ways part, where only memory can tell it.
     """
-    before = decoding["row"] < decoding["condition"].map(until).astype(float)
+    rows = decoding.get("row", pd.Series(np.nan, index=decoding.index)).astype(float)
+    before = rows < 0
     found: ByRun = {}
     for what in ("direction", "position", "order"):
         for name, level in (("cf", below), ("cs", top)):
             asked = (decoding["what"] == what) & (decoding["level"] == level)
-            rows = decoding[asked & before if what == "order" else asked]
-            found[f"{what}_from_{name}"] = rows.groupby(WHO)["score"].mean().astype(float)
+            own = decoding[asked & before if what == "order" else asked]
+            found[f"{what}_from_{name}"] = own.groupby(WHO)["score"].mean().astype(float)
     return found
 
 

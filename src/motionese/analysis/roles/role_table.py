@@ -34,6 +34,8 @@ MEASURES = {
     "order_on_map": "smallest share of the Cs₀ map among the ways on",
     "symbols_right": "sequences read out right",
     "boundaries_right": "of those, boundaries within two steps",
+    "symbols_right_alone": "sequences read out right by primitives generated alone",
+    "boundaries_right_alone": "of those, boundaries within two steps",
     **{
         f"{what}_from_{level}": f"{what} decoded from {level.capitalize()}"
         for what in ("direction", "position", "order")

@@ -9,7 +9,7 @@ import pandas as pd
 
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import level_names
-from motionese.analysis.roles.branching import branching_row, ways_on
+from motionese.analysis.roles.branching import ways_on
 from motionese.analysis.roles.order_on_map import order_on_map
 from motionese.analysis.roles.recall import strokes_recalled
 from motionese.analysis.roles.role_shares import (
@@ -44,7 +44,7 @@ def seed_table(data: ExperimentData) -> pd.DataFrame:
       others, mean over the last three loops of each stage.
     """
     below, top = level_names(data.study)
-    manner, stages = data.study.caregiver, range(1, len(data.study.stages) + 1)
+    stages = range(1, len(data.study.stages) + 1)
     lessons = {c.name: data.study.development(c)[-1].lesson for c in data.study.conditions}
     numbers = data.map_numbers.set_index(WHO)
     found: ByRun = {
@@ -58,12 +58,10 @@ def seed_table(data: ExperimentData) -> pd.DataFrame:
         ),
         **followed(data.exchanges, below),
         **spared(data.lesions, below, top),
-        **read_out(data.symbols),
+        **read_out(data.symbols, below),
         **_recall(data, stages),
         "right_elements": right_elements(data.loops, below),
-        **decoded(
-            data.decoding, below, top, {c: branching_row(s, manner) for c, s in lessons.items()}
-        ),
+        **decoded(data.decoding, below, top),
     }
     ended = data.runs.loc[data.runs["status"] != "unfinished", WHO]
     runs = pd.MultiIndex.from_frame(ended)

@@ -55,6 +55,6 @@ def _write(axes: Axes, looks: Looks, examples: Mapping[str, pd.DataFrame]) -> No
                 said = read if isinstance(read, str) else "nothing"
                 colour = INK if read == true else ASTRAY
                 axes.annotate(said, (column, row), va="center", fontsize=11, color=colour)
-    axes.annotate("performed", (0, -1), va="center")
+    axes.annotate("shown", (0, -1), va="center")
     axes.set(xlim=(-0.2, 5), ylim=(max(len(motions), 5), -1.6))
     axes.axis("off")
