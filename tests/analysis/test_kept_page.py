@@ -44,7 +44,7 @@ def test_tables_figures_and_a_page_of_them_are_kept(keep, tmp_path):
     assert "| measure | TD/MD | TD/MND | TND/MD | TND/MND |" in lines
     (row,) = [line for line in lines if line.startswith(f"| {TITLES['separation']} |")]
     assert row.split(" | ")[1].startswith("0.54 [0.5") and row.split(" | ")[3] == "–"
-    assert not [line for line in lines if line.startswith("| sequences read out")]
+    assert not [line for line in lines if line.startswith("| sequences read out right |")]
     assert "![order: learning curves](order/learning_curves.png)" in lines
 
 
