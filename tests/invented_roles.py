@@ -1,6 +1,6 @@
 """Invented tables of what role each level plays, for the motions of a lesson."""
 
-from itertools import permutations
+from itertools import permutations, product
 
 import pandas as pd
 
@@ -13,7 +13,8 @@ IN_CS = {"first": (0.0, 0.75), "order": (0.0, 1.0)}
 FOLLOWED = {"TD/MD": ALONE, "TD/MND": IN_CS, "TND/MD": IN_CF, "TND/MND": IN_CS}
 RECOGNITIONS = ("least squares", "Adam", "Adam, cf slower")
 DEMONSTRATIONS = (1, 2, 3)
-BRANCHING_ROW = 14
+ROWS = 14
+"""Of a stroke."""
 
 
 def branches(motion, lesson):
@@ -63,7 +64,7 @@ def lesions_table(condition, seed, rng, lesson, shares):
     return pd.DataFrame(rows)
 
 
-def decoding_table(condition, seed, rng, lesson, shares, rows=28):
+def decoding_table(condition, seed, rng, lesson, shares):
     who = {"condition": condition, "seed": seed}
     found = []
     for level, place in (("cf", 0), ("cs", 1)):
@@ -71,24 +72,28 @@ def decoding_table(condition, seed, rng, lesson, shares, rows=28):
         for what, value, chance in (("direction", score, 0.25), ("position", 0.9, 0.0)):
             found.append({**who, "level": level, "what": what, "score": value, "chance": chance})
         if any(branches(motion, lesson) for motion in lesson):
-            for row in range(rows):
-                held = shares["order"][place] if row < BRANCHING_ROW else 1.0
+            for row in range(-ROWS, ROWS):
+                held = shares["order"][place] if row < 0 else 1.0
                 score = 0.5 + 0.5 * held - 0.02 * rng.random()
-                found.append({**who, "level": level, "what": "order", "row": row, "score": score,
-                              "chance": 0.5})  # fmt: skip
-    return pd.DataFrame(found).reindex(columns=[*who, "level", "what", "row", "score", "chance"])
+                found.append({**who, "level": level, "what": "order", "score": score,
+                              "chance": 0.5, "beginning": "LR ↑", "row": row})  # fmt: skip
+    return pd.DataFrame(found)
 
 
 def symbols_table(condition, seed, rng, lesson):
     rows = []
-    for motion in lesson:
-        signs = motion.name.partition(" ")[2]
-        for number in DEMONSTRATIONS:
-            wrong = condition != "TD/MD" and rng.random() < 0.4
+    for level, reference in product(("io", "cf", "cs"), ("alone", "taught")):
+        for motion, number in product(lesson, DEMONSTRATIONS):
+            signs = motion.name.partition(" ")[2]
+            told = level == "io" or (
+                condition == "TD/MD" and (level, reference) == ("cf", "taught")
+            )
+            wrong = not told and rng.random() < 0.4
             rows.append({
-                "condition": condition, "seed": seed, "motion": motion.name,
-                "demonstration": number, "read": signs + signs[0] if wrong else signs,
-                "true": signs, "edit_distance": int(wrong),
+                "condition": condition, "seed": seed, "level": level, "reference": reference,
+                "motion": motion.name, "demonstration": number,
+                "read": signs + signs[0] if wrong else signs, "true": signs,
+                "edit_distance": int(wrong),
                 "boundary_error_steps": None if wrong else int(rng.integers(0, 4)),
             })  # fmt: skip
     return pd.DataFrame(rows)

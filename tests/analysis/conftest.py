@@ -24,6 +24,16 @@ def eight_seeds(tmp_path_factory):
     return root
 
 
+@pytest.fixture(scope="session")
+def orderly(tmp_path_factory):
+    """Four conditions of three seeds whose lesson asks for order, the roles separated in TD/MD."""
+    root, study = tmp_path_factory.mktemp("orderly"), read_settings("order")
+    for condition in study.conditions:
+        for seed in range(3):
+            write_run(root, condition, seed, study=study)
+    return root
+
+
 @pytest.fixture
 def unrendered(monkeypatch):
     """A machine without GL."""

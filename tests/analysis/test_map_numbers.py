@@ -71,3 +71,10 @@ def test_warnings_tell_an_idle_level_from_one_as_it_was_drawn():
     assert "does nothing in TD/MD (2.00 → 2.10; 0.0% and 0.0%)" in said[0]
     assert "as it was drawn at random in TD/MND (" in said[1]
     assert "TND/MND" not in "".join(said)
+
+
+def test_a_level_that_is_followed_has_learned_however_little_its_weights_moved():
+    drawn = numbers_of(6.0).assign(rms_cs_to_cf_after=2.1)
+    idle = numbers_of(0.0, condition="TND/MD").assign(rms_cs_to_cf_after=2.1)
+    said = warnings(pd.concat([drawn, idle]), STUDY, ["TD/MD", "TND/MD"])
+    assert len(said) == 1 and "does nothing in TND/MD" in said[0]

@@ -3,13 +3,14 @@
 import json
 import re
 import shutil
-from html.parser import HTMLParser
 
 import pandas as pd
 import pytest
 from invented_runs import STUDY, condition, without_map, without_stage_2, write_end, write_settings
+from report_page import Page
 
 from motionese.analysis import write_report
+from motionese.analysis.experiment_data import ROLES
 from motionese.errors import RenderingError, RunFolderError
 from motionese.experiment import Study
 
@@ -23,42 +24,9 @@ TABLES = [
     "claims",
     "effects",
     "runs",
+    *ROLES,
+    "measures",
 ]
-VOID = {"meta", "link", "br", "img", "hr"}
-
-
-class Page(HTMLParser):
-    """Collects text and everything that would be fetched; fails on tags that do not match."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.resources, self.ids, self.words = [], [], [], []
-        self.feed(text)
-        assert not self.open
-
-    def handle_starttag(self, tag, attributes):
-        for name, value in attributes:
-            if name in ("src", "href", "xlink:href", "data", "srcset", "action"):
-                self.resources.append(value)
-            if name == "id":
-                self.ids.append(value)
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.handle_starttag(tag, attributes)
-        if tag not in VOID:
-            self.open.pop()
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.words.append(data)
-
-    @property
-    def text(self):
-        return re.sub(r"\s+", " ", " ".join(self.words))
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +59,7 @@ def test_report_and_tables_are_there(whole):
     figures = {path.stem for path in (folder / "figures").glob("*.svg")}
     assert figures == {path.stem for path in (folder / "figures").glob("*.png")}
     assert figures >= {"learning_curves", "new_sequences", "slow_state_map_1", "inside", "film"}
+    assert figures >= {"who_is_followed", "lesions", "symbols"}
     assert not list(folder.rglob("*.part"))
 
 
@@ -126,6 +95,34 @@ def test_the_page_tells_what_was_computed(whole):
     assert "Efference copy." in text
     assert "2 all conditions taught pairs 0.00 0.00 0.00 0 0.0 this lesson asks for no" in text
     assert "0, 1, 2, 3, 4, 5, 6, 7" in text
+
+
+def test_what_was_planned_is_not_asked_of_runs_of_other_settings(whole):
+    folder, _, _, page = whole
+    assert not (folder / "findings.csv").exists() and "planned to be tested" not in page.text
+
+
+def test_a_lesson_that_asks_for_no_order_is_said_to_be_one(whole):
+    text = whole[3].text
+    assert "it asks for no memory of order, and of order there is nothing to exchange" in text
+    assert "exchange: first stroke follows Cf₀ 1.00 [1.00, 1.00]" in text
+    assert "exchange: order" not in text
+    assert "True by construction" in text and "all motions share one Cf₀" in text
+
+
+def test_runs_of_the_plan(orderly, tmp_path, unrendered):
+    folder = tmp_path / "orderly"
+    shutil.copytree(orderly, folder)
+    page = Page(write_report(folder).path.read_text())
+    assert "Where the lesson asks for memory of order, whether clear primitives" in page.text
+    assert "is undecided with 3 seeds" in page.text and "nothing to exchange" not in page.text
+    assert "Separation: Only TD/MD separates the roles" in page.text
+    assert "hardly moved" not in page.text.partition("Planned tests")[0]
+    found = pd.read_csv(folder / "findings.csv")
+    assert set(found["family"]) == {"Separation", "Generalisation"}
+    assert len(pd.read_csv(folder / "measures.csv")) == 12
+    for name in ("who_is_followed", "lesions", "symbols", "recall", "order_map", "order_decoded"):
+        assert name in page.ids and (folder / "figures" / f"{name}.png").is_file()
 
 
 def test_claims_table_beside_the_page(whole):

@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 import pytest
+from by_hand.holm import closed_bonferroni
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motionese.analysis.statistics import check_seeds, contrast, estimate, verdict
+from motionese.analysis.statistics import check_seeds, contrast, estimate, holm, verdict
 from motionese.errors import TooFewSeedsError
 
 
@@ -98,3 +99,19 @@ def test_too_few_seeds(seeds):
         contrast(np.ones(seeds), "TD − TND")
     with pytest.raises(TooFewSeedsError, match="got"):
         check_seeds(seeds, "anything")
+
+
+@given(st.lists(st.floats(0, 1), max_size=6))
+def test_holm_is_the_closure_of_bonferroni(p_values):
+    assert holm(p_values) == pytest.approx(closed_bonferroni(p_values))
+
+
+def test_holm_known_values():
+    # R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")
+    assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    assert holm([0.2]) == [0.2] and holm([]) == []
+
+
+def test_holm_counts_tests_that_could_not_be_made():
+    one, none, other = holm([0.01, math.nan, 0.02])
+    assert (one, other) == pytest.approx((0.03, 0.04)) and math.isnan(none)

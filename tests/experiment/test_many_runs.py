@@ -10,8 +10,8 @@ from distributed import Future
 from distributed.scheduler import KilledWorker
 from small_runs import left_on_disk
 
-from motionese.experiment import condition_named
-from motionese.experiment.many_runs import _failure, go_through_all, longest_first
+from motionese.experiment import condition_named, read_settings
+from motionese.experiment.many_runs import Job, _failure, go_through_all, longest_first
 from motionese.experiment.run import Run
 
 
@@ -21,17 +21,15 @@ class Heard:
     def __init__(self, on_loop=lambda loop: None):
         self.loops, self.ended, self.on_loop = [], [], on_loop
 
-    def loop_done(self, run, loop):
-        self.loops.append((run.name, loop))
+    def loop_done(self, job, loop):
+        self.loops.append((job.name, loop))
         self.on_loop(loop)
 
-    def run_ended(self, run, failure):
-        self.ended.append((run.name, failure))
+    def run_ended(self, job, failure):
+        self.ended.append((job.name, failure))
 
-    def go_through_all(self, runs, settings, workers):
-        return go_through_all(
-            runs, settings, workers, loop_done=self.loop_done, run_ended=self.run_ended
-        )
+    def go_through_all(self, jobs, workers):
+        return go_through_all(jobs, workers, loop_done=self.loop_done, run_ended=self.run_ended)
 
 
 def workers_of_this_process():
@@ -48,7 +46,7 @@ def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
     bad.folder.mkdir()
     (bad.folder / "loop-01.safetensors").write_bytes(b"cut short")
     heard = Heard()
-    failures = heard.go_through_all([bad, good], small_settings, 2)
+    failures = heard.go_through_all([Job(run, small_settings) for run in (bad, good)], 2)
     (failure,) = failures
     assert failure.startswith(f"TD/MD seed 6: {bad.folder / 'loop-01.safetensors'}: ")
     assert "cut short; remove it and the checkpoints of later loops, and" in failure
@@ -71,7 +69,7 @@ def test_a_killed_worker_is_replaced_and_its_run_goes_on(tmp_path, small_setting
 
     heard = Heard(kill_in_loop_2)
     run = Run(condition_named("TD/MD", small_settings.factors), 5, tmp_path)
-    assert heard.go_through_all([run], small_settings, 1) == []
+    assert heard.go_through_all([Job(run, small_settings)], 1) == []
     assert len(killed) == 1
     assert [loop for _, loop in heard.loops].count(0) == 1
     assert left_on_disk(tmp_path) == undisturbed
@@ -88,12 +86,26 @@ def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_
         run.folder.mkdir(parents=True)
     (begun.folder / "loop-01.safetensors").touch()
     (ended.folder / "ended.json").write_text('{"status": "finished"}')
-    ordered = longest_first(runs, small_settings)
+    ordered = [job.run for job in longest_first([Job(run, small_settings) for run in runs])]
     assert len(ordered) == 11
     assert ended not in ordered
     assert ordered[-1] == begun
     assert [run.seed for run in ordered[:3]] == [0, 0, 0]
     assert [run.condition.choices[0] for run in ordered[:3]] == ["TND", "TND", "TD"]
+
+
+def test_of_several_presets_those_with_more_loops_left_come_first(tmp_path, small_settings):
+    longer = read_settings(overrides=["stages.1.until.loops=4"], quick=True)
+    condition = condition_named("TD/MD", longer.factors)
+    jobs = [
+        Job(Run(condition, seed, tmp_path / series / str(seed)), settings, series=series)
+        for seed in (0, 1)
+        for series, settings in (("short", small_settings), ("long", longer))
+    ]
+    assert [job.name for job in longest_first(jobs)] == [
+        *("long TD/MD seed 0", "long TD/MD seed 1"),
+        *("short TD/MD seed 0", "short TD/MD seed 1"),
+    ]
 
 
 def raising(error):

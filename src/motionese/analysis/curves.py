@@ -56,7 +56,7 @@ def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | Non
     """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
-    _draw_courses(axes, loops, looks, "imitation_error_cm")
+    draw_courses(axes, loops, looks, "imitation_error_cm")
     axes.set_yscale("log")
     if converged_cm is not None:
         axes.axhline(converged_cm, color=FAINT, linewidth=0.8, linestyle=":")
@@ -65,8 +65,8 @@ def learning_curves(loops: pd.DataFrame, looks: Looks, converged_cm: float | Non
             xytext=(0, 2), textcoords="offset points", ha="right", va="bottom", color=FAINT,
             fontsize=8,
         )  # fmt: skip
-    _mark_stages(axes, loops, named=True)
-    _plain_log(axes)
+    mark_stages(axes, loops, named=True)
+    plain_log(axes)
     axes.set(xlabel="imitation loop", ylabel="imitation error [cm], log scale")
     axes.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.04))
     return figure
@@ -77,10 +77,10 @@ def error_sources(loops: pd.DataFrame, looks: Looks) -> Figure:
     figure = Figure(figsize=(WIDTH, 3.3))
     panels = figure.subplots(1, len(SOURCES), sharex=True, sharey=True)
     for axes, (column, title) in zip(panels, SOURCES.items(), strict=True):
-        _draw_courses(axes, loops, looks, column)
+        draw_courses(axes, loops, looks, column)
         axes.set_yscale("log")
-        _mark_stages(axes, loops)
-        _plain_log(axes)
+        mark_stages(axes, loops)
+        plain_log(axes)
         axes.set(title=title, xlabel="imitation loop")
     panels[0].set_ylabel("error [cm], log scale")
     for axes in panels[1:]:
@@ -102,14 +102,15 @@ def success(loops: pd.DataFrame, looks: Looks, outcomes: Sequence[Outcome]) -> F
         unit = "%" if outcome.of else outcome.unit
         axes.set(xlabel="imitation loop", ylabel=f"{outcome.title} [{unit}]")
         axes.set_ylim((-3, 103) if outcome.of else (0, None))
-        _mark_stages(axes, loops)
+        mark_stages(axes, loops)
         light_grid(axes)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, ncols=4, loc="outside upper center")
     return figure
 
 
-def _draw_courses(axes: Axes, loops: pd.DataFrame, looks: Looks, column: str) -> None:
+def draw_courses(axes: Axes, loops: pd.DataFrame, looks: Looks, column: str) -> None:
+    """Draw the `course` of every condition, with its interval as a band."""
     for condition, look in looks.items():
         curve = course(loops, condition, column)
         band = curve.index, curve["low"], curve["high"]
@@ -117,7 +118,7 @@ def _draw_courses(axes: Axes, loops: pd.DataFrame, looks: Looks, column: str) ->
         axes.plot(curve.index, curve["value"], **look.curve(), markevery=EVERY, label=condition)
 
 
-def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
+def mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> None:
     """Mark where stages begin, in loops as `along_stages` gives them."""
     last = loops["loop"].max()
     axes.set_xlim(0.5, last + 0.5)
@@ -136,7 +137,7 @@ def _mark_stages(axes: Axes, loops: pd.DataFrame, *, named: bool = False) -> Non
             )  # fmt: skip
 
 
-def _plain_log(axes: Axes) -> None:
+def plain_log(axes: Axes) -> None:
     """Label a logarithmic axis with plain numbers at 1, 2, 5."""
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -27,8 +27,8 @@ ROLES = {
     "exchanges": ["recognition", "motion_lower", "motion_upper", "demonstration", "split", "kind",
                   "stroke", "follows"],
     "lesions": ["motion", "demonstration", "lesion", "stroke", "ambiguous", "right"],
-    "decoding": ["level", "what", "row", "score", "chance"],
-    "symbols": ["motion", "demonstration", "read", "true", "edit_distance",
+    "decoding": ["level", "what", "score", "chance"],
+    "symbols": ["level", "reference", "motion", "demonstration", "read", "true", "edit_distance",
                 "boundary_error_steps"],
 }  # fmt: skip
 """Tables of what role each level plays."""

@@ -17,6 +17,7 @@ from motionese.analysis.map_numbers import level_names
 from motionese.analysis.mochizuki2013 import CONVERGED_CM, has_its_design
 from motionese.analysis.new_sequences import new_sequences
 from motionese.analysis.paths import paths
+from motionese.analysis.roles.role_figures import role_figures
 from motionese.analysis.seed_measures import Measures, typical_seed
 from motionese.analysis.while_shown import following, noticing
 from motionese.figure_style import SETTINGS, Drawing, finished
@@ -37,8 +38,14 @@ class Shown(NamedTuple):
     drawing: Drawing
 
 
-def figures(data: ExperimentData, measures: Measures) -> Iterator[Shown]:
-    """Draw all figures that the runs allow, one after the other."""
+def figures(data: ExperimentData, measures: Measures, by_seed: pd.DataFrame) -> Iterator[Shown]:
+    """Draw all figures that the runs allow, one after the other.
+
+    `by_seed` has the measures of every run in one table, as of `seed_table`.
+    """
+    with rc_context(SETTINGS):
+        roles = [_shown(n, "roles", said, f) for n, said, f in role_figures(data, by_seed)]
+    yield from roles
     for draw in (_over_loops, _of_new_sequences, _while_shown, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):
             drawn = list(draw(data, measures))

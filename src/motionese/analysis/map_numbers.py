@@ -1,6 +1,6 @@
 """The map of the slow initial states in numbers, beside what became of the slow level's weights."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -99,8 +99,12 @@ def _weights(
     }
 
 
-def warnings(numbers: pd.DataFrame, study: Study) -> list[str]:
-    """Return a sentence for the conditions whose maps must not be taken for what was learned."""
+def warnings(numbers: pd.DataFrame, study: Study, followed: Collection[str] = ()) -> list[str]:
+    """Return a sentence for the conditions whose maps must not be taken for what was learned.
+
+    In conditions in which the top level is `followed` when initial states are exchanged it has
+    learned, however little its weights have moved.
+    """
     below, top = level_names(study)
     idle: list[str] = []
     as_drawn: list[str] = []
@@ -114,7 +118,10 @@ def warnings(numbers: pd.DataFrame, study: Study) -> list[str]:
             parts = [1 - middle[f"share_{below}_{segment}"] for segment in SEGMENTS]
             shares = " and ".join(f"{part:.1%}" for part in parts)
             said = f"{condition.name} ({before:.2f} → {after:.2f}; {shares})"
-            (idle if max(parts) < NOTHING else as_drawn).append(said)
+            if max(parts) < NOTHING:
+                idle.append(said)
+            elif condition.name not in followed:
+                as_drawn.append(said)
     sentences, unmoved = [], f"its weights to {below.capitalize()} hardly moved in learning"
     if idle:
         sentences.append(

@@ -1,59 +1,68 @@
 """The report's page, made of its parts by one template; nothing in it is asked of the network."""
 
 from collections.abc import Sequence
-from importlib import resources
 from itertools import groupby
 
 import pandas as pd
-from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
-from motionese import __version__
 from motionese.analysis import mochizuki2013, page_tables
-from motionese.analysis.experiment_data import ExperimentData
+from motionese.analysis.experiment_data import ROLES, ExperimentData
 from motionese.analysis.facts import flat
 from motionese.analysis.figures import Shown
 from motionese.analysis.map_numbers import warnings
+from motionese.analysis.mochizuki2013.findings import Finding
+from motionese.analysis.roles.branching import without_cases
+from motionese.analysis.roles.by_construction import by_construction
+from motionese.analysis.roles.role_figures import last_lessons
+from motionese.analysis.roles.role_shares import slow_followed
+from motionese.analysis.roles.role_table import role_table
 from motionese.analysis.seed_measures import LAST_LOOPS, Measures
+from motionese.analysis.templates import rendered
 from motionese.analysis.verdicts import Judgement, claims_table
 
 
 def page(
     data: ExperimentData,
     measures: Measures,
-    numbers: pd.DataFrame,
+    by_seed: pd.DataFrame,
     effects: pd.DataFrame,
     results: Sequence[Judgement],
+    findings: Sequence[Finding],
+    sentences: Sequence[str],
     figures: Sequence[Shown],
     too_few: str,
 ) -> str:
     """Return the page as HTML.
 
-    A study of another design than the paper's has no `results`; `too_few` is why tests could not be
-    made, or "".
+    `by_seed` has the measures of every run in one table, as of `seed_table`. A study of another
+    design than the paper's has no `results`; one of other settings than those planned has no
+    `findings`, and no `sentences` that answer the question from them. `too_few` is why tests could
+    not be made, or "".
     """
-    facts, warned = data.facts, warnings(numbers, data.study)
+    lessons = last_lessons(data).values()
+    facts, warned = data.facts, warnings(data.map_numbers, data.study, slow_followed(by_seed))
     question, answer = f"What was learned of {data.task.title}?", [_last_errors(measures)]
     if results:
-        question, answer = mochizuki2013.QUESTION, [mochizuki2013.answer(measures), *warned]
+        question, answer = mochizuki2013.QUESTION, [*sentences]
+        answer = answer or [mochizuki2013.answer_by_map(measures), *warned]
     departures = groupby(mochizuki2013.departures() if results else (), lambda d: d.heading)
     tables = ["loops", *data.novel, "online", "switches", "slow_state_map", "map_numbers"]
+    tables += [*ROLES, "measures"]
     tables += ["development", "effects"]
-    tables += ["claims", "runs"] if results else ["runs"]
+    tables += ["claims"] * bool(results) + ["findings"] * bool(findings) + ["runs"]
     shown: dict[str, list[tuple[str, str, Markup]]] = {}
     for f in figures:
         shown.setdefault(f.section, []).append((f.name, f.caption, Markup(f.drawing.inline)))
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    return environment.from_string(_part("report.html.jinja")).render(
-        style=Markup(_part("report.css")),
+    return rendered(
+        "report.html.jinja",
         name=data.folder.resolve().name,
-        version=__version__,
         question=question,
         answer=answer,
         results=results,
         claims=page_tables.claims_rows(claims_table(results)),
+        findings=page_tables.findings_rows(findings),
+        planned=findings,
         converged=mochizuki2013.CONVERGED_CM,
         same=mochizuki2013.SAME,
         departures=[(heading, list(each)) for heading, each in departures],
@@ -63,8 +72,11 @@ def page(
         lessons=page_tables.lessons_table(data.study),
         errors=page_tables.errors_table(measures, data),
         online=page_tables.online_table(data),
-        map=page_tables.map_table(numbers, data),
+        map=page_tables.map_table(data.map_numbers, data),
         warnings=warned,
+        roles=role_table(by_seed, data.looks),
+        without_cases=dict.fromkeys(s for each in lessons for s in without_cases(each)),
+        by_construction=by_construction(data.study),
         success=page_tables.success_table(data),
         runs=page_tables.runs_table(data.runs),
         failures=page_tables.failures_table(data.runs),
@@ -80,7 +92,3 @@ def _last_errors(measures: Measures) -> str:
     last = measures.last_error.median().dropna().sort_values()
     told = ", ".join(f"{error:.1f} cm in {name}" for name, error in last.items())
     return f"Imitation error at the end of the last stage, median over seeds: {told or 'none'}."
-
-
-def _part(name: str) -> str:
-    return resources.files("motionese.analysis").joinpath(name).read_text(encoding="utf-8")

@@ -8,6 +8,7 @@ import pandas as pd
 from motionese.analysis.cells import NONE, Table, number, with_interval
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import SEGMENTS, level_names
+from motionese.analysis.mochizuki2013.findings import Finding
 from motionese.analysis.seed_measures import Measures, last_loops
 from motionese.analysis.statistics import Estimate, estimate
 from motionese.analysis.while_shown import AT_ONCE, KINDS
@@ -23,6 +24,20 @@ def claims_rows(table: pd.DataFrame) -> Table:
     """Return the claims for the page: claim, what is measured, numbers, verdict."""
     head = ["claim, and what is measured: positive speaks for it", *TESTED, "verdict"]
     return Table(head, [[*_tested(row), row[-1]] for row in table.itertuples(index=False)])
+
+
+def findings_rows(found: Sequence[Finding]) -> Table:
+    """Return what was planned to be tested, for the page: finding, measured, numbers, verdict."""
+    head = ["finding, and what is measured: positive speaks for it", "mean [95 %]", "p"]
+    head += ["corrected", "d", "seeds", "left out", "verdict"]
+    rows = []
+    for each in found:
+        interval = with_interval(Estimate(each.statistic, each.low, each.high, each.seeds))
+        p, d = (number(each.p, 3), number(each.p_corrected, 3)), number(each.effect)
+        counts = str(each.seeds), str(each.left_out)
+        text = f"{each.family}: {each.text}"
+        rows.append([text, each.measured, interval, *p, d, *counts, each.verdict])
+    return Table(head, rows)
 
 
 def effects_rows(table: pd.DataFrame) -> Table:

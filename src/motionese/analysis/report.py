@@ -6,11 +6,18 @@ from pathlib import Path
 
 from motionese.analysis.cells import listed
 from motionese.analysis.effects import effects
-from motionese.analysis.experiment_data import collect
+from motionese.analysis.experiment_data import ROLES, collect
 from motionese.analysis.figures import figures
-from motionese.analysis.map_numbers import map_numbers
-from motionese.analysis.mochizuki2013 import claims, has_its_design
+from motionese.analysis.mochizuki2013 import (
+    answer,
+    claims,
+    findings,
+    findings_table,
+    has_its_design,
+    preset_of,
+)
 from motionese.analysis.page import page
+from motionese.analysis.roles import seed_table
 from motionese.analysis.seed_measures import Measures, measured
 from motionese.analysis.statistics import check_seeds
 from motionese.analysis.verdicts import claims_table, judge
@@ -48,29 +55,34 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     ended = int((data.runs["status"] != "unfinished").sum())
     tell(f"{ended} of {len(data.runs)} runs have ended")
     study = data.study
-    numbers = map_numbers(data.slow_state_map, data.development, study, data.strokes)
+    numbers, by_seed = data.map_numbers, seed_table(data)
     measures = measured(data, numbers)
     found = effects(measures, study.factors)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
+    planned = {preset: by_seed} if results and (preset := preset_of(study)) else {}
+    tested, sentences = findings(planned), answer(planned)
     tables = {"loops": data.loops, "development": data.development, **data.novel}
     tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
     tables |= {"online": data.online, "switches": data.switches}
+    tables |= {name: getattr(data, name) for name in ROLES} | {"measures": by_seed}
     tables |= {"runs": data.runs, "effects": found}
     tables |= {"claims": claims_table(results)} if results else {}
+    tables |= {"findings": findings_table(tested)} if tested else {}
     try:
         for name, table in tables.items():
             text = table.to_csv(index=False, lineterminator="\n")
             write_whole(run_folder / f"{name}.csv", text)
         drawn = []
         (run_folder / "figures").mkdir(exist_ok=True)
-        for each in figures(data, measures):
+        for each in figures(data, measures, by_seed):
             tell(f"figure {each.name}")
             write_whole(run_folder / "figures" / f"{each.name}.svg", each.drawing.svg)
             write_whole(run_folder / "figures" / f"{each.name}.png", each.drawing.png)
             drawn.append(each)
         too_few = _too_few(measures, list(data.looks))
         path = run_folder / REPORT
-        write_whole(path, page(data, measures, numbers, found, results, drawn, too_few))
+        text = page(data, measures, by_seed, found, results, tested, sentences, drawn, too_few)
+        write_whole(path, text)
     except OSError as error:
         raise RunFolderError(
             f"{error.filename or run_folder} cannot be written: {error.strerror}"

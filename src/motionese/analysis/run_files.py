@@ -29,7 +29,7 @@ KEPT = ("activity", "commanded", "sensed", "begins", "poses")
 WORDS = (
     "condition", "motion", "primitive", "status", "repertoire_status", "first", "second",
     "recognition", "motion_lower", "motion_upper", "split", "kind", "follows", "lesion", "level",
-    "what", "true",
+    "what", "reference", "true",
 )  # fmt: skip
 MAY_BE_EMPTY = ("reproduction_strokes_cm", "read")
 """Words of which there may be none."""

@@ -6,7 +6,7 @@ resampled from a fixed generator: the same data give the same numbers.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -90,6 +90,22 @@ def contrast(differences: Float[ndarray, " n"], what: str) -> Contrast:
     if mean.value:
         effect = mean.value / spread if spread else math.copysign(math.inf, mean.value)
     return Contrast(mean.value, mean.low, mean.high, float(test.pvalue), effect, mean.seeds)
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Return p values corrected for their number by Holm's step-down procedure.
+
+    With p_(1) ≤ … ≤ p_(m), the corrected p_(k) is the largest of (m − j + 1) p_(j), j ≤ k, and at
+    most 1: all of at most α are rejected with a family-wise error of at most α, whichever depend on
+    each other (S. Holm, Scand. J. Statist. 6, 1979). A test that could not be made (NaN) counts as
+    one that rejects nothing, and stays NaN.
+    """
+    p = np.asarray(p_values, dtype=np.float64)
+    order = np.argsort(p)  # NaN last
+    stepped = np.maximum.accumulate(p[order] * np.arange(len(p), 0, -1))
+    corrected = np.empty_like(p)
+    corrected[order] = np.minimum(stepped, 1.0)
+    return [float(each) for each in corrected]
 
 
 def check_seeds(seeds: int, what: str) -> None:

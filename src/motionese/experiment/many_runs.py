@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from itertools import islice
 from multiprocessing import resource_tracker
+from typing import NamedTuple
 
 import dask
 from distributed import Client, Future, LocalCluster, as_completed, get_worker
@@ -26,74 +27,95 @@ class UnfinishedRunsError(MotioneseError):
     """Runs that could not go on, each with its reason; what was finished is kept."""
 
 
+class Job(NamedTuple):
+    """A run, and what it takes to go through it.
+
+    Attributes:
+        recordings: Demonstrations that are shown in the place of scripted ones.
+        series: What is told before the run's name, where that alone does not tell it from others.
+    """
+
+    run: Run
+    settings: Study
+    recordings: Recordings | None = None
+    series: str = ""
+
+    @property
+    def name(self) -> str:
+        """How people are told of it, such as 'TD/MD seed 100' or 'order TD/MD seed 100'."""
+        return f"{self.series} {self.run.name}" if self.series else self.run.name
+
+    @property
+    def loops(self) -> int:
+        """How many loops it has at most."""
+        return self.settings.most_loops()
+
+
 def go_through_all(
-    runs: Sequence[Run],
-    settings: Study,
+    jobs: Sequence[Job],
     workers: int,
     *,
-    recordings: Recordings | None = None,
-    loop_done: Callable[[Run, int], None],
-    run_ended: Callable[[Run, str], None],
+    loop_done: Callable[[Job, int], None],
+    run_ended: Callable[[Job, str], None],
 ) -> list[str]:
     """Do what is left of many runs; a run that cannot go on does not keep the others from it.
 
     Args:
-        runs: The runs; those that are finished cost nothing.
+        jobs: The runs, each of another name; those that are finished cost nothing.
         workers: How many runs at once, each in a process of its own.
-        recordings: Demonstrations that are shown in the place of scripted ones.
         loop_done: Called with a run and its last whole loop, also when it begins.
         run_ended: Called with a run and why it could not go on, or "".
 
     Returns:
         For every run that could not go on, a sentence why.
     """
-    left = longest_first(runs, settings)
+    left = longest_first(jobs)
     if not left:
         return []
-    by_name, waiting = {run.name: run for run in left}, iter(left)
+    by_name, waiting = {job.name: job for job in left}, iter(left)
     failures = []
     with _client(min(workers, len(left))) as client:
 
         def begin(count: int) -> list[Future]:
             return [
-                client.submit(_go_through, run, settings, recordings, key=run.name, pure=False)
-                for run in islice(waiting, count)
+                client.submit(_go_through, job, key=job.name, pure=False)
+                for job in islice(waiting, count)
             ]
 
         client.subscribe_topic(LOOPS, lambda event: loop_done(by_name[event[1][0]], event[1][1]))
         going = as_completed(begin(workers))
         for future in going:
-            run, failure = by_name[future.key], _failure(future)
-            run_ended(run, failure)
+            job, failure = by_name[future.key], _failure(future)
+            run_ended(job, failure)
             if failure:
-                failures.append(f"{run.name}: {failure}")
+                failures.append(f"{job.name}: {failure}")
             going.update(begin(1))
     return failures
 
 
-def longest_first(runs: Sequence[Run], settings: Study) -> list[Run]:
+def longest_first(jobs: Sequence[Job]) -> list[Job]:
     """Return the runs that have not ended, so ordered that workers finish at about the same time.
 
     A run is longer the more loops are left, and among those of one seed the longer its lessons.
     """
 
-    def key(run: Run) -> tuple[int, int, int]:
-        stages = settings.development(run.condition)
+    def key(job: Job) -> tuple[int, int, int]:
+        stages = job.settings.development(job.run.condition)
         primitives = sum(len(sequence.primitives) for each in stages for sequence in each.lesson)
-        return run.loops_done(), run.seed, -primitives
+        return job.run.loops_done() - job.loops, job.run.seed, -primitives
 
-    return sorted((run for run in runs if not run.ended()), key=key)
+    return sorted((job for job in jobs if not job.run.ended()), key=key)
 
 
-def _go_through(run: Run, settings: Study, recordings: Recordings | None) -> str:
+def _go_through(job: Job) -> str:
     """Do a run in a worker; return why it cannot go on, or ""."""
 
     def loop_done(loop: int) -> None:
-        get_worker().log_event(LOOPS, (run.name, loop))
+        get_worker().log_event(LOOPS, (job.name, loop))
 
-    loop_done(run.loops_done())
+    loop_done(job.run.loops_done())
     try:
-        go_through(run, settings, loop_done, recordings)
+        go_through(job.run, job.settings, loop_done, job.recordings)
     except StorageError as error:
         return (
             f"{error}; remove it and the checkpoints of later loops, and the same command goes on "
@@ -102,7 +124,7 @@ def _go_through(run: Run, settings: Study, recordings: Recordings | None) -> str
     except MotioneseError as error:
         return str(error)
     except OSError as error:
-        return f"{error.filename or run.folder}: {error.strerror}; the same command goes on"
+        return f"{error.filename or job.run.folder}: {error.strerror}; the same command goes on"
     return ""
 
 

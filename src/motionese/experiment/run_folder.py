@@ -6,11 +6,11 @@ the folder is free, and holds what was finished.
 
 import json
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from filelock import FileLock, Timeout
 
@@ -48,52 +48,109 @@ class RunFolder:
         return Run(condition, seed, self.path / condition.folder / f"seed-{seed}", self.shown)
 
 
+class Opening(NamedTuple):
+    """A run folder that is to be made, or gone on with.
+
+    Attributes:
+        path: The folder; it may be missing or empty.
+        settings: The settings of all its runs.
+        preset: What the settings were made from, for the record.
+        shown: A digest of the recorded demonstrations of all its runs; empty if scripted.
+    """
+
+    path: Path
+    settings: Study
+    preset: str
+    shown: str = ""
+
+
 @contextmanager
 def open_run_folder(
     path: Path, settings: Study, preset: str, shown: str = ""
 ) -> Iterator[RunFolder]:
     """Make a run folder, or go on with one that has the same settings; others are kept out.
 
-    Args:
-        path: The folder; it may be missing or empty.
-        settings: The settings of all its runs.
-        preset: What the settings were made from, for the record.
-        shown: A digest of the recorded demonstrations of all its runs; empty if scripted.
-
     Raises:
         RunFolderError: It is in use, not ours, of other settings, or cannot be written to.
     """
-    if path.exists():
-        _check_ours(path)
-    with _alone(path):
-        try:
-            folder = _begun(path, settings, preset, shown)
-        except OSError as error:
-            raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
+    with open_run_folders([Opening(path, settings, preset, shown)]) as (folder,):
         yield folder
 
 
-def _begun(path: Path, settings: Study, preset: str, shown: str) -> RunFolder:
+@contextmanager
+def open_run_folders(openings: Sequence[Opening]) -> Iterator[list[RunFolder]]:
+    """Make several run folders, or go on with them; all are checked before one is written to.
+
+    Raises:
+        RunFolderError: One is in use, not ours, of other settings, or cannot be written to.
+    """
+    for each in openings:
+        if each.path.exists():
+            _check_ours(each.path)
+            _check_same(each)
+    with ExitStack() as locks:
+        for each in openings:
+            locks.enter_context(_alone(each.path))
+        yield [_begun(each) for each in openings]
+
+
+def check_around(path: Path, names: Sequence[str]) -> None:
+    """Check a folder that run folders of these names are to lie in.
+
+    Raises:
+        RunFolderError: It is a file, a run folder itself, or holds other things alone.
+    """
+    if not path.exists():
+        return
+    within = _names_in(path)
+    if SETTINGS in within:
+        raise RunFolderError(
+            f"{path} is a run folder itself; run folders of several presets need one around them, "
+            "choose another"
+        )
+    if within and not run_folders_in(path) and not set(within) & set(names):
+        raise RunFolderError(f"{path} is not empty and no run folder lies in it; choose another")
+
+
+def run_folders_in(path: Path) -> list[Path]:
+    """Return the run folders that lie in a folder, by their names."""
+    return sorted(settings.parent for settings in path.glob(f"*/{SETTINGS}"))
+
+
+def _begun(opening: Opening) -> RunFolder:
     """Write what stands beside the runs, or check that it is the same."""
-    now = settings.model_dump(mode="json")
-    if (path / SETTINGS).exists():
-        if changes := differences(run_settings(path), now):
-            raise RunFolderError(
-                f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
-            )
-        if (before := run_demonstrations(path)) != shown:
-            raise RunFolderError(
-                f"{path} holds runs that were shown other demonstrations "
-                f"({before or 'scripted'} → {shown or 'scripted'}); choose another --out"
-            )
-        # What a killed process had not finished writing.
-        for part in path.rglob(".*.part"):
-            part.unlink()
-    else:
-        facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
-        facts |= {"demonstrations": shown} if shown else {}
-        write_whole(path / SETTINGS, json.dumps(facts, indent=1))
-    return RunFolder(path, _record_environment(path), shown)
+    path, settings, preset, shown = opening
+    try:
+        # Another process may have written them since they were checked without the lock.
+        _check_same(opening)
+        if (path / SETTINGS).exists():
+            # What a killed process had not finished writing.
+            for part in path.rglob(".*.part"):
+                part.unlink()
+        else:
+            now = settings.model_dump(mode="json")
+            facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
+            facts |= {"demonstrations": shown} if shown else {}
+            write_whole(path / SETTINGS, json.dumps(facts, indent=1))
+        return RunFolder(path, _record_environment(path), shown)
+    except OSError as error:
+        raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
+
+
+def _check_same(opening: Opening) -> None:
+    """Refuse a folder whose runs have other settings, or were shown something else."""
+    path, settings, _, shown = opening
+    if not (path / SETTINGS).exists():
+        return
+    if changes := differences(run_settings(path), settings.model_dump(mode="json")):
+        raise RunFolderError(
+            f"{path} holds runs of other settings ({'; '.join(changes)}); choose another --out"
+        )
+    if (before := run_demonstrations(path)) != shown:
+        raise RunFolderError(
+            f"{path} holds runs that were shown other demonstrations "
+            f"({before or 'scripted'} → {shown or 'scripted'}); choose another --out"
+        )
 
 
 def run_settings(path: Path) -> Facts:
@@ -130,18 +187,22 @@ def _facts(file: Path) -> Facts:
 
 
 def _check_ours(path: Path) -> None:
-    if not path.is_dir():
-        raise RunFolderError(f"{path} is a file; a run folder must be a folder, choose another")
-    try:
-        names = [p.name for p in path.iterdir()]
-    except OSError as error:
-        raise RunFolderError(f"{path} cannot be read: {error.strerror}") from error
+    names = _names_in(path)
     # A process may have been killed before it wrote the settings.
     foreign = [n for n in names if n not in (LOCK, HOLDER) and not n.endswith(".part")]
     if SETTINGS not in names and foreign:
         raise RunFolderError(
             f"{path} is not empty and no run folder (it has no {SETTINGS}); choose another"
         )
+
+
+def _names_in(path: Path) -> list[str]:
+    if not path.is_dir():
+        raise RunFolderError(f"{path} is a file; a run folder must be a folder, choose another")
+    try:
+        return [each.name for each in path.iterdir()]
+    except OSError as error:
+        raise RunFolderError(f"{path} cannot be read: {error.strerror}") from error
 
 
 @contextmanager

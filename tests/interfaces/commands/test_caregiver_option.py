@@ -21,17 +21,17 @@ def shown(small_settings, here):
 def test_recorded_demonstrations_are_shown_and_noted(command, shown, here, monkeypatch):
     asked = {}
 
-    def go_through_all(runs, settings, workers, *, recordings, **told):
-        asked.update(runs=runs, recordings=recordings)
+    def go_through_all(jobs, workers, **told):
+        asked.update(jobs=jobs)
         return ["not gone through"]
 
     monkeypatch.setattr("motionese.interfaces.commands.reproduce.go_through_all", go_through_all)
     arguments = ("reproduce", "--quick", "--seeds", "1", "--out", "run")
     status, output, errors = command(*arguments, "--caregiver", shown)
     assert status == 2 and "not gone through" in errors and "UR ↓, UR ←" in output
-    assert list(asked["recordings"]) == ["UR ↓", "UR ←"]
+    assert {tuple(job.recordings) for job in asked["jobs"]} == {("UR ↓", "UR ←")}
     digest = json.loads((here / "run" / "settings.json").read_text())["demonstrations"]
-    assert {run.shown for run in asked["runs"]} == {digest}
+    assert {job.run.shown for job in asked["jobs"]} == {digest}
     status, _, errors = command(*arguments)
     assert status == 2 and "other demonstrations" in errors
 

@@ -1,12 +1,15 @@
-"""The results in a few lines, from the tables."""
+"""The results in a few lines, and of which run folders a report is written."""
 
 import io
+from pathlib import Path
 
 import pandas as pd
 import pytest
+from invented_runs import condition, write_run, write_settings
 from rich.console import Console
 
 from motionese.experiment import read_settings
+from motionese.interfaces.commands import results as module
 from motionese.interfaces.commands.results import summary
 
 
@@ -64,3 +67,90 @@ def test_without_new_sequences_there_is_no_column_and_without_due_presses_a_dash
     loops = pd.read_csv(folder / "loops.csv").assign(buttons_due=0, buttons_pressed=0)
     loops.to_csv(folder / "loops.csv")
     assert lines(summary(folder, read_settings()))[5] == ["TD/MD", "3", "11.0", "6.0", "3.5", "–"]
+
+
+@pytest.fixture
+def reported(here, monkeypatch):
+    """Empty run folders, and of which ones a report is asked for."""
+    for folder in ("runs/a", "runs/b", "else/c", "x"):
+        (here / folder).mkdir(parents=True)
+        write_settings(here / folder)
+    asked = []
+
+    def results(folder, console):
+        asked.append(folder)
+        return ""
+
+    def all_results(folders, path, console):
+        asked.append((folders, path))
+        return ""
+
+    monkeypatch.setattr(module, "write_results", results)
+    monkeypatch.setattr(module, "write_all_results", all_results)
+    return asked
+
+
+A, B, C = Path("runs/a"), Path("runs/b"), Path("else/c")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "asked"),
+    [
+        (["runs/a"], A),
+        (["runs"], ([A, B], Path("runs/report.html"))),
+        (["runs/b", "runs/a"], ([B, A], Path("runs/report.html"))),
+        (["runs/a", "--out", "one.html"], ([A], Path("one.html"))),
+        (["runs", "else/c", "--out", "all.html"], ([A, B, C], Path("all.html"))),
+        (["else"], ([C], Path("else/report.html"))),
+    ],
+)
+def test_a_run_folder_has_its_report_and_several_have_one_more(command, reported, arguments, asked):
+    status, _, errors = command("report", *arguments)
+    assert (status, errors, reported) == (0, "", [asked])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["runs/a", "else/c"], "these run folders do not lie in one folder; say with --out FILE"),
+        (["runs/a", "nowhere"], "nowhere is no run folder: there is no such folder"),
+    ],
+)
+def test_folders_that_no_one_report_can_be_written_of(command, reported, arguments, told):
+    status, output, errors = command("report", *arguments)
+    assert (status, output, reported) == (2, "", [])
+    assert errors.startswith(f"motionese: {told}")
+
+
+@pytest.mark.parametrize(
+    ("out", "told"),
+    [("runs", "runs is a folder"), ("runs/a/all.html", "runs/a/all.html would lie in a run fold")],
+)
+def test_places_that_are_none_for_the_one_report(command, here, out, told):
+    (here / "runs" / "a").mkdir(parents=True)
+    write_settings(here / "runs" / "a")
+    status, output, errors = command("report", "runs/a", "--out", out)
+    assert (status, output) == (2, "")
+    assert errors.startswith(f"motionese: {told}")
+
+
+def test_the_one_report_of_run_folders_is_made_of_what_theirs_leave(command, here, monkeypatch):
+    monkeypatch.setattr("motionese.analysis.report.figures", lambda *of: ())
+    for preset in ("default", "order"):
+        study = read_settings(preset)
+        for seed in (0, 1):
+            (here / "runs" / preset).mkdir(parents=True, exist_ok=True)
+            write_settings(here / "runs" / preset, study, preset=preset)
+            write_run(here / "runs" / preset, condition("TD/MD"), seed, study=study)
+    status, output, errors = command("report", "runs")
+    assert (status, errors) == (0, "")
+    told = [line for line in output.splitlines() if "runs/" in line]
+    assert told == [
+        *("runs/default:", "Report: runs/default/report.html"),
+        *("runs/order:", "Report: runs/order/report.html", "Report of all: runs/report.html"),
+    ]
+    beside = pd.read_csv(here / "runs" / "beside_kept.csv")
+    (separation,) = beside[beside["measure"] == "separation"].to_dict("records")
+    assert (separation["runs"], separation["median"], separation["seeds"]) == ("order", 1.0, 2)
+    page = (here / "runs" / "report.html").read_text()
+    assert "default with 2 seeds (0–1) and order with 2 seeds (0–1)" in page

@@ -67,6 +67,18 @@ def test_ctrl_c_stops_it_while_it_starts_its_workers(begin):
 
 
 @pytest.mark.slow
+def test_several_presets_go_through_one_pool_and_end_with_one_report(begin, here, undisturbed):
+    several = [*REPRODUCE, "--preset", "default", "order", "--seeds", "5-5"]
+    output, errors = (process := begin(*several)).communicate(timeout=240)
+    assert process.returncode == 0, errors
+    assert output.splitlines()[3].startswith("3 loops a run, 2 at a time; ")
+    assert output.splitlines()[-1] == "Report of all: runs/a/report.html"
+    assert left_on_disk(here / "runs/a/default/TD-MD/seed-5") == undisturbed
+    reports = {path.relative_to(here).as_posix() for path in here.rglob("report.html")}
+    assert reports == {f"runs/a/{name}report.html" for name in ("", "default/", "order/")}
+
+
+@pytest.mark.slow
 def test_killed_at_any_moment_it_leaves_no_process_and_goes_on(
     begin, here, undisturbed, monkeypatch
 ):

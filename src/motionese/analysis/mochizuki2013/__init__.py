@@ -4,8 +4,16 @@ Shown only where a study has the paper's design: teaching (TD, TND) by structuri
 two stages of pushing two buttons, with a slow level above a fast one.
 """
 
-from motionese.analysis.mochizuki2013.claims import CONVERGED_CM, QUESTION, SAME, answer, claims
+from motionese.analysis.mochizuki2013.answer import answer
+from motionese.analysis.mochizuki2013.claims import (
+    CONVERGED_CM,
+    QUESTION,
+    SAME,
+    answer_by_map,
+    claims,
+)
 from motionese.analysis.mochizuki2013.departures import departures
+from motionese.analysis.mochizuki2013.findings import findings, findings_table, preset_of
 from motionese.experiment import Study
 
 FACTORS = [("TD", "TND"), ("MD", "MND")]
@@ -21,4 +29,16 @@ def has_its_design(study: Study) -> bool:
     )
 
 
-__all__ = ["CONVERGED_CM", "QUESTION", "SAME", "answer", "claims", "departures", "has_its_design"]
+__all__ = [
+    "CONVERGED_CM",
+    "QUESTION",
+    "SAME",
+    "answer",
+    "answer_by_map",
+    "claims",
+    "departures",
+    "findings",
+    "findings_table",
+    "has_its_design",
+    "preset_of",
+]

@@ -84,8 +84,8 @@ def _map(measures: Measures) -> list[Claim]:
     ]
 
 
-def answer(measures: Measures) -> str:
-    """Return the answer to the question, from the map's numbers."""
+def answer_by_map(measures: Measures) -> str:
+    """Return the answer to the question, from the map's numbers alone."""
     lengths = measures.resultant_length
     found: dict[str, list[str]] = {"yes": [], "no": [], "undecided": []}
     words = {"holds": "yes", "does not hold": "no"}

@@ -38,7 +38,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
     },
 }
 SEVERAL = (
-    *("--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
+    *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
     *("--observed", "--log", "--like", "--start"),
 )
 """Options that may be followed by several values."""

@@ -22,7 +22,7 @@ from rich.text import Text
 from motionese.learning import Progress
 
 if TYPE_CHECKING:
-    from motionese.experiment import Run
+    from motionese.experiment.many_runs import Job
 
 LINE_EVERY_S, TRAINING_LINE_EVERY_S = 20.0, 10.0
 WHOLE_HISTORY_S, TRAINING_HISTORY_S = 1e9, 60.0
@@ -59,42 +59,41 @@ class _Display:
 class Display(_Display):
     """One display for many runs: all loops of all runs, and the runs under way."""
 
-    def __init__(self, console: Console, runs: Sequence["Run"], loops: int) -> None:
-        """Prepare for runs of so many loops each, counting what they have done already."""
+    def __init__(self, console: Console, jobs: Sequence["Job"]) -> None:
+        """Prepare for the loops of all runs, counting what they have done already."""
         shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
         after = TextColumn("loops"), _TimeLeft()
         super().__init__(console, *shown, *after, speed_estimate_period=WHOLE_HISTORY_S)
-        self._loops = loops
-        self._done = {run.name: loops if run.ended() else run.loops_done() for run in runs}
-        self._left = sum(run.ended() is None for run in runs)
+        done = {job.name: job.loops if job.run.ended() else job.run.loops_done() for job in jobs}
+        self._done, self._left = done, sum(job.run.ended() is None for job in jobs)
         self._rows: dict[str, TaskID] = {}
-        done, total = sum(self._done.values()), loops * len(runs)
+        part, total = sum(done.values()), sum(job.loops for job in jobs)
         self._all = self._bars.add_task(
-            "all runs", total=total, completed=done, told_from=100 * (0.9 * done / total + 0.1)
+            "all runs", total=total, completed=part, told_from=100 * (0.9 * part / total + 0.1)
         )
 
-    def loop_done(self, run: "Run", loop: int) -> None:
+    def loop_done(self, job: "Job", loop: int) -> None:
         """Show a run's last whole loop; its row appears with the first one that is told."""
-        if run.name not in self._rows:
-            row = self._bars.add_task(run.name, total=self._loops, told_from=math.inf)
-            self._rows[run.name] = row
-        doing = run.name if loop < self._loops else f"{run.name}, evaluation"
-        self._bars.update(self._rows[run.name], completed=loop, description=doing)
-        self._advance(run, loop)
+        if job.name not in self._rows:
+            row = self._bars.add_task(job.name, total=job.loops, told_from=math.inf)
+            self._rows[job.name] = row
+        doing = job.name if loop < job.loops else f"{job.name}, evaluation"
+        self._bars.update(self._rows[job.name], completed=loop, description=doing)
+        self._advance(job, loop)
         self._say(["going on", self._to_go()], after_s=LINE_EVERY_S)
 
-    def run_ended(self, run: "Run", failure: str) -> None:
+    def run_ended(self, job: "Job", failure: str) -> None:
         """Take a run off the display."""
         self._left -= 1
-        if run.name in self._rows:
-            self._bars.update(self._rows[run.name], visible=False)
-        self._advance(run, self._loops)
-        self._say([f"{run.name} {'cannot go on' if failure else 'ended'}", self._to_go()])
+        if job.name in self._rows:
+            self._bars.update(self._rows[job.name], visible=False)
+        self._advance(job, job.loops)
+        self._say([f"{job.name} {'cannot go on' if failure else 'ended'}", self._to_go()])
 
-    def _advance(self, run: "Run", loop: int) -> None:
+    def _advance(self, job: "Job", loop: int) -> None:
         # A run whose process died begins again at its checkpoint, perhaps before what was told.
-        further = max(loop - self._done[run.name], 0)
-        self._done[run.name] += further
+        further = max(loop - self._done[job.name], 0)
+        self._done[job.name] += further
         self._bars.advance(self._all, further)
 
     def _to_go(self) -> str:

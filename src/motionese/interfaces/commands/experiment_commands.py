@@ -30,8 +30,12 @@ def reproduce(
         str, Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
     ] = "3",
     preset: Annotated[
-        str, Option(metavar="NAME|FILE", help="Settings; see `motionese presets`.")
-    ] = "default",
+        Texts,
+        Option(
+            metavar="NAME|FILE …",
+            help="Settings, see `motionese presets`; several get one report. Default: default.",
+        ),
+    ] = None,
     overrides: Annotated[
         Texts, Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40.")
     ] = None,
@@ -45,7 +49,10 @@ def reproduce(
             help="Who shows the motions: e.g. what `motionese teach` has kept in a folder.",
         ),
     ] = "scripted",
-    out: Annotated[Path | None, Option(help="The run folder; default: runs/PRESET.")] = None,
+    out: Annotated[
+        Path | None,
+        Option(help="The run folder, or that of several presets' run folders; else runs/PRESET."),
+    ] = None,
     workers: Annotated[
         int | None, Option(min=1, help="Runs at a time; default: one a core.")
     ] = None,
@@ -67,7 +74,7 @@ def reproduce(
             console,
             conditions=conditions or (),
             seeds=seeds,
-            preset=preset,
+            presets=preset or ["default"],
             overrides=[*(overrides or ()), *([f"body.vision={vision}"] if vision else ())],
             out=out,
             workers=workers,
@@ -77,13 +84,26 @@ def reproduce(
     _end(too_few, trial=quick)
 
 
-def report(run: Annotated[Path, Argument(help="A run folder.", metavar="RUN")]) -> None:
-    """Write the report of a run folder again, also while its runs go on."""
+def report(
+    run: Annotated[
+        list[Path],
+        Argument(help="A run folder, or a folder that run folders lie in.", metavar="RUN …"),
+    ],
+    out: Annotated[
+        Path | None,
+        Option(
+            metavar="FILE",
+            help="The one report of all run folders, beside the results that are kept; default: "
+            "report.html in the folder around them.",
+        ),
+    ] = None,
+) -> None:
+    """Write the report of a run folder again, also while its runs go on; or that of several."""
     with plainly("stopped; the report was not written") as console:
         _check_extra("report")
-        from motionese.interfaces.commands.results import write_results
+        from motionese.interfaces.commands.results import write_again
 
-        too_few = write_results(run, console)
+        too_few = write_again(run, out, console)
     _end(too_few)
 
 

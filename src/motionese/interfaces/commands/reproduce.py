@@ -6,17 +6,12 @@ from pathlib import Path
 from dask.system import CPU_COUNT
 from rich.console import Console
 
-from motionese.caregiver import Recorded, read_recorded
-from motionese.errors import SettingError
-from motionese.experiment import Run, Study, read_settings
-from motionese.experiment.many_runs import UnfinishedRunsError, go_through_all
-from motionese.experiment.run_folder import REPORT, open_run_folder
-from motionese.imitation import Scene, newborn
-from motionese.interfaces.commands.choices import as_ranges, read_conditions, read_seeds
+from motionese.experiment.many_runs import Job, UnfinishedRunsError, go_through_all
+from motionese.experiment.run_folder import REPORT, RunFolder, check_around, open_run_folders
+from motionese.interfaces.commands.choices import as_ranges, read_seeds
 from motionese.interfaces.commands.display import Display
-from motionese.interfaces.commands.results import write_results
-
-SCRIPTED = "scripted"
+from motionese.interfaces.commands.results import write_all_results, write_results
+from motionese.interfaces.commands.series import SCRIPTED, Series, read_series
 
 
 def reproduce(
@@ -24,14 +19,14 @@ def reproduce(
     *,
     conditions: Iterable[str],
     seeds: str,
-    preset: str,
+    presets: Sequence[str],
     overrides: Iterable[str],
     out: Path | None,
     workers: int | None,
     quick: bool,
     caregiver: str = SCRIPTED,
 ) -> str:
-    """Perform the experiment, or what is left of it, and report.
+    """Perform the experiment with every preset, or what is left of it, and report.
 
     Everything is checked before anything is written.
 
@@ -41,64 +36,61 @@ def reproduce(
     Raises:
         UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
     """
-    settings = read_settings(preset, overrides, quick=quick)
-    scene = Scene(settings, seed=0)
-    newborn(scene, len(settings.network.levels))
-    chosen, numbers = read_conditions(conditions, settings), read_seeds(seeds)
-    shown = _recorded(caregiver, scene)
-    path = out or Path("runs") / (Path(preset).stem + ("-quick" if quick else ""))
+    numbers = read_seeds(seeds)
+    root, series = read_series(
+        presets, out, conditions=conditions, overrides=overrides, caregiver=caregiver, quick=quick
+    )
+    if len(series) > 1:
+        check_around(root, [each.label for each in series])
     say = console.print
-    with open_run_folder(path, settings, preset, shown.digest if shown else "") as folder:
-        runs = [folder.run(condition, seed) for seed in numbers for condition in chosen]
-        say(f"The report will be at {path / REPORT}")
-        names = ", ".join(c.name for c in chosen)
-        say(f"{len(runs)} runs: {names}, each with seeds {as_ranges(numbers)}")
-        if shown:
-            say(f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted")
-        for change in folder.changed:
-            say(f"This folder was begun with other versions ({change}): the bits may differ")
-        failures = _go_through(runs, settings, workers or CPU_COUNT, shown, console)
-        if failures and not any(run.ended() for run in runs):
+    with open_run_folders([each.opening for each in series]) as folders:
+        jobs = {s.path: s.jobs(f, numbers) for s, f in zip(series, folders, strict=True)}
+        every = [job for each in jobs.values() for job in each]
+        say(f"The report will be at {root / REPORT}")
+        for each, folder in zip(series, folders, strict=True):
+            _say_what(each, folder, numbers, console)
+        failures = _go_through(every, workers or CPU_COUNT, console)
+        begun = [path for path, own in jobs.items() if any(job.run.ended() for job in own)]
+        if not begun:
             raise UnfinishedRunsError("; ".join(failures))
-        too_few = write_results(path, console)
-    diverged = [run.name for run in runs if (run.ended() or {}).get("status") == "diverged"]
+        if len(series) > 1:
+            too_few = write_all_results(begun, root / REPORT, console)
+        else:
+            too_few = write_results(root, console)
+    diverged = [job.name for job in every if (job.run.ended() or {}).get("status") == "diverged"]
     if diverged:
-        names = ", ".join(diverged)
-        say(f"{len(diverged)} of {len(runs)} runs diverged: {names}; see the report")
+        say(f"{len(diverged)} of {len(every)} runs diverged: {', '.join(diverged)}; see the report")
     if failures:
         raise UnfinishedRunsError("; ".join(failures))
     return too_few
 
 
-def _recorded(caregiver: str, scene: Scene) -> Recorded | None:
-    """Return the demonstrations of 'recordings:PATH', or None for 'scripted'."""
-    kind, _, path = caregiver.partition(":")
-    if caregiver == SCRIPTED:
-        return None
-    if kind != "recordings" or not path:
-        raise SettingError(f"--caregiver is {SCRIPTED} or recordings:FOLDER, got '{caregiver}'")
-    return read_recorded(Path(path), scene.task, scene.settings.caregiver, scene.body)
+def _say_what(series: Series, folder: RunFolder, numbers: Sequence[int], console: Console) -> None:
+    names, of = ", ".join(c.name for c in series.conditions), series.label and f" of {series.label}"
+    count, say = len(series.conditions) * len(numbers), console.print
+    say(f"{count} runs{of}: {names}, each with seeds {as_ranges(numbers)}")
+    if shown := series.shown:
+        say(f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted")
+    for change in folder.changed:
+        this = f"{folder.path}" if of else "This folder"
+        say(f"{this} was begun with other versions ({change}): the bits may differ")
 
 
-def _go_through(
-    runs: Sequence[Run], settings: Study, workers: int, shown: Recorded | None, console: Console
-) -> list[str]:
-    left = [run for run in runs if not run.ended()]
-    loops = settings.most_loops()
-    begun = sum(run.loops_done() > 0 for run in left)
-    if len(left) < len(runs) or begun:
-        console.print(f"{len(runs) - len(left)} of them are done, {begun} go on from a checkpoint")
+def _go_through(jobs: Sequence[Job], workers: int, console: Console) -> list[str]:
+    left = [job for job in jobs if not job.run.ended()]
+    begun = sum(job.run.loops_done() > 0 for job in left)
+    if len(left) < len(jobs) or begun:
+        console.print(f"{len(jobs) - len(left)} of them are done, {begun} go on from a checkpoint")
     if not left:
         return []
-    workers = min(workers, len(left))
+    workers, loops = min(workers, len(left)), sorted({job.loops for job in left})
     stops = "Ctrl-C stops, the same command goes on"
-    console.print(f"{loops} loops a run, {workers} at a time; {stops}")
-    with Display(console, runs, loops) as display:
+    console.print(f"{_range(loops)} loops a run, {workers} at a time; {stops}")
+    with Display(console, jobs) as display:
         return go_through_all(
-            left,
-            settings,
-            workers,
-            recordings=shown.recordings if shown else None,
-            loop_done=display.loop_done,
-            run_ended=display.run_ended,
+            left, workers, loop_done=display.loop_done, run_ended=display.run_ended
         )
+
+
+def _range(loops: Sequence[int]) -> str:
+    return " to ".join(dict.fromkeys(map(str, (loops[0], loops[-1]))))

@@ -1,15 +1,17 @@
-"""The report of a run folder, and its results in a few lines."""
+"""The report of one run folder or of several, and their results in a few lines."""
 # ruff: noqa: PLC0415
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
 
+from motionese.errors import RunFolderError
 from motionese.experiment import Study
 from motionese.experiment.presets import study_of
-from motionese.experiment.run_folder import run_settings
+from motionese.experiment.run_folder import REPORT, SETTINGS, run_folders_in, run_settings
 from motionese.task import Outcome
 
 if TYPE_CHECKING:
@@ -34,6 +36,59 @@ def write_results(folder: Path, console: Console) -> str:
     console.print(summary(written.path.parent, study))
     console.print(f"Report: {written.path}")
     return str(written.too_few)
+
+
+def write_again(paths: Sequence[Path], out: Path | None, console: Console) -> str:
+    """Write the report of one run folder; or those of several, and one for all of them.
+
+    Args:
+        paths: Run folders, and folders that run folders lie in.
+        out: Where the one report is written; None for `report.html` in the folder around them.
+
+    Returns:
+        Why there was too little for a statistical test, or "".
+
+    Raises:
+        RunFolderError: No run folder, or there is no place for the one report.
+    """
+    nested = {path: not (path / SETTINGS).exists() and run_folders_in(path) for path in paths}
+    folders = [each for path, within in nested.items() for each in within or [path]]
+    if out is None and folders == list(nested) and len(folders) == 1:
+        return write_results(folders[0], console)
+    for folder in folders:
+        run_settings(folder)
+    around = folders[0].parent
+    if out is None and {each.resolve().parent for each in folders} != {around.resolve()}:
+        raise RunFolderError(
+            "these run folders do not lie in one folder; say with --out FILE where their report "
+            "is written"
+        )
+    return write_all_results(folders, out or around / REPORT, console)
+
+
+def write_all_results(folders: Sequence[Path], path: Path, console: Console) -> str:
+    """Write the report of every run folder, and one for all of them; print their results.
+
+    Returns:
+        Why there was too little for a statistical test, or "".
+
+    Raises:
+        RunFolderError: No run folder, none of its runs has ended, or it is no place for a report.
+    """
+    from motionese.analysis import write_comparison
+
+    if path.is_dir() or (path.parent / SETTINGS).exists():
+        what = "is a folder" if path.is_dir() else "would lie in a run folder, which has its own"
+        raise RunFolderError(f"{path} {what}; the one report needs another place")
+    reasons = []
+    for folder in folders:
+        console.print(f"{folder}:")
+        if too_few := write_results(folder, console):
+            reasons.append(f"{folder}: {too_few}")
+    with console.status("Writing the report of all …"):
+        write_comparison(folders, path)
+    console.print(f"Report of all: {path}")
+    return "; ".join(reasons)
 
 
 def summary(folder: Path, study: Study) -> Table:
