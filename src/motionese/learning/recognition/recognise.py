@@ -122,8 +122,9 @@ def recognise_all(
         )
     count, rows = padded_to or (len(motions), max(motions.lengths))
     batch = motions.batch(rows, count)
-    known = memory is not None and memory.names
-    recall = memory.nearest(network, batch, settings.recalled) if known else None
+    recall = None
+    if memory is not None and memory.names:
+        recall = memory.nearest(network, batch, settings.recalled)
     if starts is None and recall is None and not settings.starts:
         starts = np.zeros((len(motions), 1, network.size))
     free = _starts(network, count, starts, recall, settings, key)
