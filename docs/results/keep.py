@@ -50,7 +50,10 @@ def lines(here: Path) -> Iterator[str]:
         return
     yield from (f"{sentence}\n" for sentence in answer(kept))
     yield "## Findings\n"
-    yield from table(findings_rows(findings(kept)))
+    head, rows = findings_rows(findings(kept))
+    yield from table(
+        Table(head, [[f"{what}<br>{measured}", *row] for what, measured, *row in rows])
+    )
     for preset, measures in kept.items():
         seeds, version = runs[preset].seeds, runs[preset].version
         yield f"\n## {preset}\n"

@@ -24,6 +24,11 @@ def number(value: float, digits: int = 2) -> str:
     return f"{rounded:.{digits}f}".replace("-", "−")
 
 
+def probability(p: float) -> str:
+    """Return a p value as text; one that rounds to 0 is not 0."""
+    return "< 0.001" if p < 0.0005 else number(p, 3)
+
+
 def with_interval(found: Estimate, digits: int = 2) -> str:
     """Return 'value [low, high]', the value alone where one seed is all."""
     value = number(found.value, digits)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from motionese.analysis.cells import NONE, Table, number, with_interval
+from motionese.analysis.cells import NONE, Table, number, probability, with_interval
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.map_numbers import SEGMENTS, level_names
 from motionese.analysis.mochizuki2013.findings import Finding
@@ -33,7 +33,7 @@ def findings_rows(found: Sequence[Finding]) -> Table:
     rows = []
     for each in found:
         interval = with_interval(Estimate(each.statistic, each.low, each.high, each.seeds))
-        p, d = (number(each.p, 3), number(each.p_corrected, 3)), number(each.effect)
+        p, d = (probability(each.p), probability(each.p_corrected)), number(each.effect)
         counts = str(each.seeds), str(each.left_out)
         text = f"{each.family}: {each.text}"
         rows.append([text, each.measured, interval, *p, d, *counts, each.verdict])
@@ -51,7 +51,7 @@ def _tested(row: Sequence[Any]) -> list[str]:
     what, measured, value, low, high, p, effect, seeds, *_ = row
     digits = 3 if measured.endswith("[1]") else 2
     interval = with_interval(Estimate(value, low, high, seeds), digits)
-    return [what, measured, interval, number(p, 3), number(effect), str(seeds)]
+    return [what, measured, interval, probability(p), number(effect), str(seeds)]
 
 
 def lessons_table(study: Study) -> Table:
