@@ -35,7 +35,7 @@ MEASURES = {
     "symbols_right": "sequences read out right",
     "boundaries_right": "of those, boundaries within two steps",
     "symbols_right_alone": "sequences read out right by primitives generated alone",
-    "boundaries_right_alone": "of those, boundaries within two steps",
+    "boundaries_right_alone": "of those by primitives alone, boundaries within two steps",
     **{
         f"{what}_from_{level}": f"{what} decoded from {level.capitalize()}"
         for what in ("direction", "position", "order")
