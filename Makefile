@@ -15,7 +15,7 @@ TOOLS := $(VENV)/.tools
 
 reproduce:
 	@echo "The report will be at $(OUT)/report.html"
-	@$(MAKE) --no-print-directory $(READY)
+	@$(MAKE) --no-print-directory -s $(READY)
 	@$(BIN)/motionese reproduce --preset default order --seeds $(SEEDS) --out $(OUT)
 
 # The results that are kept, in the package and in docs/results, made again: 270 runs, some hours on
