@@ -26,6 +26,8 @@ os.environ["JAX_COMPILATION_CACHE_DIR"] = str(COMPILED)
 jax.config.update("jax_compilation_cache_dir", str(COMPILED))
 jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
 
+MAPPED, MOST_MAPPINGS = Path("/proc/self/maps"), 20_000
+"""A process on Linux has at most 65,530 mappings, and every compiled function takes a few."""
 COMPILING = ("analysis", "contracts", "learning", "network", "runtime")
 """Folders whose tests compile far longer than they compute: little is optimised there."""
 
@@ -58,6 +60,14 @@ def little_optimised(request):
     jax.config.update("jax_disable_most_optimizations", request.path.parent.name in COMPILING)
     yield
     jax.config.update("jax_disable_most_optimizations", False)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def few_mappings():
+    """Forget what was compiled before the system refuses to map more of it, and XLA crashes."""
+    yield
+    if MAPPED.is_file() and MAPPED.read_bytes().count(b"\n") > MOST_MAPPINGS:
+        jax.clear_caches()
 
 
 @pytest.fixture
