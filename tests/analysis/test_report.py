@@ -131,6 +131,7 @@ def test_claims_table_beside_the_page(whole):
     assert (claims.loc[claims["claim"].str.startswith("(a)"), "verdict"] == "holds").all()
 
 
+@pytest.mark.slow
 def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
     for seed in range(2):
         make_run(tmp_path, TD_MD, seed)
@@ -144,6 +145,7 @@ def test_some_conditions_with_failures(tmp_path, make_run, unrendered):
     assert "undecided with 0 seeds" in page.text and "TND/MND (1" not in page.text
 
 
+@pytest.mark.slow
 def test_one_seed_and_again_the_same_bytes(tmp_path, make_run, unrendered):
     make_run(tmp_path, TD_MD, 7)
     make_run(tmp_path, TND_MD, 7)
@@ -183,6 +185,7 @@ def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
     assert "no slow level, no map" in page.text
 
 
+@pytest.mark.slow
 def test_one_stage_is_all(tmp_path, make_run, unrendered):
     table = STUDY.model_dump(mode="json")
     write_settings(tmp_path, Study.model_validate(table | {"stages": table["stages"][:1]}))
@@ -196,6 +199,7 @@ def test_one_stage_is_all(tmp_path, make_run, unrendered):
     assert "The paper’s claims" not in text and "What was learned of pushing two buttons?" in text
 
 
+@pytest.mark.slow
 def test_stages_that_ended_after_different_numbers_of_loops(tmp_path, make_run, unrendered):
     for seed in range(2):
         table = make_run(tmp_path, TD_MD, seed) / "loops.csv"

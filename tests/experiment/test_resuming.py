@@ -74,6 +74,7 @@ def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_set
     assert left_on_disk(tmp_path) == undisturbed
 
 
+@pytest.mark.slow
 def test_another_seed_ends_with_other_bits(tmp_path, small_settings, undisturbed):
     go_through(Run(TD_MD, 6, tmp_path), small_settings, lambda loop: None)
     other = left_on_disk(tmp_path)
