@@ -18,8 +18,8 @@ reproduce:
 	@$(MAKE) --no-print-directory -s $(READY)
 	@$(BIN)/motionese reproduce --preset default order --seeds $(SEEDS) --out $(OUT)
 
-# The results that are kept, in the package and in docs/results, made again: 270 runs, some hours on
-# two cores (docs/plan.md).
+# The results that are kept, in the package and in docs/results, made again: 270 runs, about an
+# hour on two cores (docs/plan.md).
 results: $(READY)
 	@$(CONFIRM) --preset order default --out $(RESULTS)
 	@$(CONFIRM) --preset free --conditions TD/MD --out $(RESULTS)/free

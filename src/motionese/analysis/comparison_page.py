@@ -14,13 +14,12 @@ from motionese.analysis.beside_kept import SHOWN, TITLES, Beside
 from motionese.analysis.cells import NONE, listed, number, with_interval
 from motionese.analysis.kept import KeptRuns
 from motionese.analysis.reported import Reported
+from motionese.analysis.statistics import DECIDING
 from motionese.analysis.templates import rendered
 from motionese.experiment.presets import differences
 from motionese.experiment.run_folder import REPORT
 from motionese.figure_style import Drawing
 
-DECIDING = 6
-"""Seeds below which no sign-flip test can reach p ≤ 0.05."""
 ENDS = {"diverged": "diverged", "unfinished": "did not end"}
 NO_ANSWER = "Runs of the presets order, default and free answer it; these have other settings."
 TOLD = 6

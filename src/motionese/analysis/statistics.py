@@ -20,6 +20,8 @@ LEVEL = 0.05
 """A test with p of at most this decides, and intervals cover 1 − this."""
 RESAMPLES = 4999
 SEED = 20130
+DECIDING = 6
+"""Seeds below which no sign-flip test can reach p ≤ 0.05."""
 FEWEST = 2
 """Seeds below which there is neither an interval nor a test."""
 

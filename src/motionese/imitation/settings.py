@@ -94,7 +94,8 @@ class StagedTraining(Training):
 
     Attributes:
         shared: By level, which motions share its initial states; nobody where it is not named.
-        grouping: How it is known which element of a repertoire a motion begins with.
+        grouping: How it is known which element of a repertoire a motion begins with; its first
+            primitive is always known by name.
     """
 
     shared: dict[str, Sharing] = Field(default_factory=dict)
@@ -163,6 +164,10 @@ class Settings(Group):
                 raise ValueError(
                     f"training.shared.{level}: {level} is the top level, whose initial states "
                     f"belong to single motions; shared can be those of {', '.join(below) or 'none'}"
+                )
+            if not below:
+                raise ValueError(
+                    f"training.shared.{level}: a network of one context level has none to share"
                 )
             if level not in below:
                 raise ValueError(unknown("level in training.shared", level, below))

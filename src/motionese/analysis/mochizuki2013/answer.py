@@ -124,42 +124,47 @@ def _on_the_map(tables: Tables, found: Sequence[Finding]) -> str:
 
 
 def _new_sequences(tables: Tables, found: Sequence[Finding]) -> str:
-    column = "untrained_cm"
-    if not _measured(tables, DEFAULT, TD_MD, column):
-        return ""
-    own = [each for each in found if each.family == NEW and "better" in each.text]
-    told = _compared(tables, DEFAULT, column, own, ("better than", "worse than"))
-    error = _median(tables, DEFAULT, TD_MD, column)
-    return (
-        f"after the paper's own lesson {TD_MD} imitates untrained triples ({error} cm off) {told} "
-        f"({_runs(tables, DEFAULT)})"
-    )
+    what = f"after the paper's own lesson {TD_MD} imitates untrained triples"
+    return _errors(tables, found, (DEFAULT, TD_MD, "untrained_cm"), NEW, what)
 
 
 def _generalised(tables: Tables, found: Sequence[Finding]) -> str:
-    column = "untrained_repertoire_cm"
-    if not _measured(tables, ORDER, TD_MD, column):
-        return ""
-    own = [each for each in found if each.family == GENERALISATION]
-    told = _compared(tables, ORDER, column, own, ("better than", "worse than"))
-    error = _median(tables, ORDER, TD_MD, column)
-    return (
-        f"after the lesson that asks for order {TD_MD} imitates untrained triples from the "
-        f"repertoire ({error} cm off) {told} ({_runs(tables, ORDER)})"
-    )
+    what = f"after the lesson that asks for order {TD_MD} imitates untrained triples from the "
+    of = ORDER, TD_MD, "untrained_repertoire_cm"
+    return _errors(tables, found, of, GENERALISATION, f"{what}repertoire")
 
 
 def _learned(tables: Tables, found: Sequence[Finding]) -> str:
-    column = "end_of_stage_1_cm"
-    if not _measured(tables, DEFAULT, TND_MD, column):
+    what, of = f"{TND_MD} is, when stage 1 ends", (DEFAULT, TND_MD, "end_of_stage_1_cm")
+    words = "farther off than", "nearer than"
+    return _errors(tables, found, of, LEARNING, f"in the paper's own lesson {what}", words, ",")
+
+
+def _errors(
+    tables: Tables,
+    found: Sequence[Finding],
+    of: tuple[str, str, str],
+    family: str,
+    what: str,
+    words: tuple[str, str] = ("better than", "worse than"),
+    then: str = "",
+) -> str:
+    """Return what a condition's error is in comparison with the others.
+
+    Args:
+        of: The preset, the condition and the column.
+        family: Of the tests that compare it.
+        what: What is said of the condition, before its error.
+        words: If such a test holds, and if it does not.
+        then: What follows the error.
+    """
+    preset, condition, column = of
+    if not _measured(tables, preset, condition, column):
         return ""
-    own = [each for each in found if each.family == LEARNING]
-    told = _compared(tables, DEFAULT, column, own, ("farther off than", "nearer than"))
-    error = _median(tables, DEFAULT, TND_MD, column)
-    return (
-        f"in the paper's own lesson {TND_MD} is, when stage 1 ends ({error} cm off), {told} "
-        f"({_runs(tables, DEFAULT)})"
-    )
+    own = [f for f in found if f.family == family and f.against and "spread" not in f.measured]
+    told = _compared(tables, preset, column, own, words)
+    error = _median(tables, preset, condition, column)
+    return f"{what} ({error} cm off){then} {told} ({_runs(tables, preset)})"
 
 
 def _compared(

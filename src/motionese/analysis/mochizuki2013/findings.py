@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from motionese.analysis.mochizuki2013.claims import OTHERS, SAME, TD_MD, TD_MND, TND_MD, TND_MND
-from motionese.analysis.statistics import Contrast, contrast, estimate, holm, verdict
+from motionese.analysis.statistics import DECIDING, Contrast, contrast, estimate, holm, verdict
 from motionese.errors import TooFewSeedsError
 from motionese.experiment import Study
 from motionese.experiment.presets import read_settings
@@ -21,8 +21,6 @@ from motionese.experiment.presets import read_settings
 ORDER, DEFAULT, FREE = "order", "default", "free"
 CLEAR = 0.9
 """From this separation on the roles of a run are clear."""
-ENOUGH = 6
-"""Seeds below which no paired test can decide, see `contrast`."""
 SEPARATION, MAP = "Separation", "Claim (c)"
 NEW, LEARNING, GENERALISATION = "Claim (b)", "Claim (a)", "Generalisation"
 
@@ -209,7 +207,7 @@ def _together(
     median = estimate(values.to_numpy(dtype=np.float64))
     seeds, said = median.seeds, {part.verdict for part in parts}
     reached = median.value >= least
-    if "does not hold" in said or (seeds >= ENOUGH and not reached):
+    if "does not hold" in said or (seeds >= DECIDING and not reached):
         found = "does not hold"
     elif said == {"holds"} and reached:
         found = "holds"
