@@ -67,7 +67,7 @@ def test_a_format_that_is_unknown_or_not_told_is_refused(whole, tmp_path):
     with pytest.raises(SettingError, match=r"out: its name does not tell the format; end it in"):
         write(tmp_path / "out", whole)
     write(tmp_path / "out.npz", whole)
-    with pytest.raises(SettingError, match="episode names a column of csv; this is npz"):
+    with pytest.raises(SettingError, match="episode is the column that names the episode, of csv"):
         read(tmp_path / "out.npz", episode="id")
 
 

@@ -12,7 +12,7 @@ from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
 from motionese.learning.motions.motions import Motions
 from motionese.learning.recognition.recognise import SAME_RATE
-from motionese.recordings import choose, chosen, prepare, read
+from motionese.recordings import OPTIONS, choose, chosen, prepare, read
 
 
 def read_for(
@@ -21,9 +21,7 @@ def read_for(
     *,
     needed: Sequence[str] | None = None,
     format: str | None = None,
-    episode: str | None = None,
-    time: str | None = None,
-    **choice: Any,
+    **given: Any,
 ) -> Motions:
     """Read recordings as motions over a model's channels, in its order, with its ranges.
 
@@ -34,8 +32,8 @@ def read_for(
         fit: The model.
         path: The file or folder.
         needed: Channels that must be there; all where left out.
-        format: As `Motions.read` takes it; so are `episode` and `time`.
-        choice: What else `Motions.read` takes; ranges are the model's.
+        format: As `Motions.read` takes it.
+        given: What else `Motions.read` takes; ranges are the model's.
 
     Raises:
         ChannelError: A needed channel is missing, or they stand in another order.
@@ -43,8 +41,9 @@ def read_for(
     """
     channels = fit.network.channels
     assert channels is not None, "a trained network carries channels"
-    wish = choose(**choice)
-    found = read(path, format, episode=episode, time=time)
+    told = {name: given.pop(name) for name in OPTIONS if name in given}
+    wish = choose(**given)
+    found = read(path, format, **told)
     taken = {"channels": wish.channels or found.channels, "exclude": wish.exclude}
     present = chosen(found, choose(**taken)).channels
     own = tuple(name for name in present if name in channels.names)
@@ -62,7 +61,7 @@ def read_for(
             f"{', '.join(own)}; name them in the model's: --channels {','.join(order)}"
         )
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
-    ready = prepare(found, choose(**{**choice, "channels": own, "exclude": (), "ranges": ranges}))
+    ready = prepare(found, choose(**{**given, "channels": own, "exclude": (), "ranges": ranges}))
     motions = Motions.from_recording(ready)
     if abs(motions.rate_hz - fit.rate_hz) > SAME_RATE * fit.rate_hz:
         raise RecordingError(

@@ -1,18 +1,21 @@
 """What is in files of recordings, read, chosen, put on an even grid, before it is learned from."""
 
 from motionese.recordings.choice import MARGIN, Choice, choose, chosen
+from motionese.recordings.finding import Finding
 from motionese.recordings.preparation import prepare, range_of
 from motionese.recordings.recording import Episode, Recording
-from motionese.recordings.registry import FORMATS, read, write
+from motionese.recordings.registry import FORMATS, OPTIONS, read, write
 from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
 
 __all__ = [
     "FORMATS",
     "MARGIN",
+    "OPTIONS",
     "ChannelNumbers",
     "Choice",
     "Episode",
     "EpisodeNumbers",
+    "Finding",
     "Recording",
     "Survey",
     "choose",

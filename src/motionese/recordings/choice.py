@@ -39,6 +39,14 @@ class Choice(BaseModel):
         nan: Whether a NaN among the values is refused or taken as a gap.
         ranges: Ranges (low, high) by name or pattern; else what the file tells, else the data's.
         margin: How far a range taken from the data reaches beyond it, as a share of its width.
+        episodes: Names, patterns, or ranges of numbers ("0-9") of the episodes taken; all for None.
+        skip: The same, of episodes left out.
+        unwrap: Channels that are angles, to go on beyond the end of a turn.
+        quaternions: Channels of quaternions, whose signs are to agree from row to row.
+        leaps: What is done where a channel leaps as no arm does: nothing; its rows become a gap;
+            the episode is cut in two; or it is refused.
+        binary: Channels of two values, to be held at them when they are generated.
+        strict: Whether any finding is refused.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -52,6 +60,13 @@ class Choice(BaseModel):
     units: Mapping[str, str] = {}
     ranges: Mapping[str, Range] = {}
     margin: float = Field(default=MARGIN, ge=0, le=10)
+    episodes: tuple[str, ...] | None = None
+    skip: tuple[str, ...] = ()
+    unwrap: tuple[str, ...] = ()
+    quaternions: tuple[str, ...] = ()
+    leaps: Literal["keep", "gap", "cut", "refuse"] = "keep"
+    binary: tuple[str, ...] = ()
+    strict: bool = False
 
 
 def choose(**given: Any) -> Choice:

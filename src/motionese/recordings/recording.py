@@ -1,12 +1,14 @@
 """What a file of recordings holds, before anything is chosen, filled in, or refused."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
+
+from motionese.recordings.finding import Finding
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,9 @@ class Recording:
             nothing does.
         episodes: At least one.
         usual: The channels that are taken when none are chosen.
+        binary: The two values of channels that are to be held at them when they are generated.
+        held_out: Names of episodes that the file sets apart for testing.
+        findings: What was found or done while it was read, and since.
     """
 
     source: Path
@@ -69,10 +74,17 @@ class Recording:
     rate_hz: float | None
     episodes: tuple[Episode, ...]
     usual: tuple[str, ...]
+    binary: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    held_out: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
 
     def map(self, change: Callable[[Episode], Episode]) -> "Recording":
         """Return the recording with every episode changed."""
         return replace(self, episodes=tuple(map(change, self.episodes)))
+
+    def found(self, *findings: Finding) -> "Recording":
+        """Return the recording with further findings."""
+        return replace(self, findings=(*self.findings, *findings))
 
     def first(self, which: Callable[[Episode], Bool[ndarray, "T D"]]) -> tuple[str, float] | None:
         """Return in words where the first of certain cells is, and its value."""

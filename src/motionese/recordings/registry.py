@@ -4,6 +4,7 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
@@ -17,19 +18,28 @@ class Format:
 
     Attributes:
         what: What is read, in words.
-        module: Its functions are `read(path) -> Recording` and `write(path, recording)`. Both raise
-            `RecordingError` where a file is not what it should be, or cannot hold the recording or
-            be written, and `MissingPackageError` where the package of their extra is missing.
+        module: Its functions are `read(path, **options) -> Recording` and `write(path, recording)`.
+            Both raise `RecordingError` where a file is not what it should be, or cannot hold the
+            recording or be written, and `MissingPackageError` where the package of their extra is
+            missing.
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
+        options: Which of `OPTIONS` its `read` takes.
     """
 
     what: str
     module: ModuleType
     suffixes: tuple[str, ...] = ()
     inside: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
 
 
+OPTIONS = {
+    "episode": "the column that names the episode",
+    "time": "the column that holds the time",
+    "columns": "the names of columns without a header",
+}
+"""What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
 TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
 FORMATS = {
@@ -38,31 +48,24 @@ FORMATS = {
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
     "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
-    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES),
+    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, (*OPTIONS,)),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")
 """Kinds of characters that are no text: control characters, and halves of what is no UTF-8."""
 
 
-def read(
-    path: str | Path,
-    format: str | None = None,
-    *,
-    episode: str | None = None,
-    time: str | None = None,
-) -> Recording:
+def read(path: str | Path, format: str | None = None, **options: Any) -> Recording:
     """Read a file or folder of recordings.
 
     Args:
         path: The file or folder.
         format: One of `FORMATS`; found from the name or what the folder holds where left out.
-        episode: The column that names the episode, where the file is a table (csv).
-        time: The column that holds the time, where the file is a table (csv).
+        options: Any of `OPTIONS` that the format takes; None counts as left out.
 
     Raises:
         RecordingError: Nothing there, or not what it is said to be.
-        SettingError: A format that does not exist, or columns named for what is no table.
+        SettingError: A format or option that does not exist, or that the format does not take.
     """
     path = Path(path)
     try:
@@ -72,9 +75,15 @@ def read(
     if not there:
         raise RecordingError(f"{path}: there is no such file or folder")
     name = _named(format) or _found(path)
-    given = {k: v for k, v in (("episode", episode), ("time", time)) if v is not None}
-    if given and name != "csv":
-        raise SettingError(f"{path}: {next(iter(given))} names a column of csv; this is {name}")
+    given = {option: told for option, told in options.items() if told is not None}
+    for option in given:
+        if option not in OPTIONS:
+            raise SettingError(unknown("option", option, OPTIONS))
+        if option not in FORMATS[name].options:
+            takes = ", ".join(n for n, f in FORMATS.items() if option in f.options)
+            raise SettingError(
+                f"{path}: {option} is {OPTIONS[option]}, of {takes} alone; this is {name}"
+            )
     return _checked(FORMATS[name].module.read(path, **given))
 
 

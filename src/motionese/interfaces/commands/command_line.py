@@ -39,6 +39,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
 }
 SEVERAL = (
     *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
+    *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary"),
     *("--observed", "--log", "--like", "--start"),
 )
 """Options that may be followed by several values."""

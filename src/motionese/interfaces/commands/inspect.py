@@ -11,7 +11,7 @@ from rich.table import Table
 from motionese.interfaces.commands.motion_figure import write_figure
 from motionese.interfaces.commands.outputs import PICTURES, check_output
 from motionese.interfaces.commands.summaries import number_table
-from motionese.recordings import Recording, Survey, choose, chosen, read, survey
+from motionese.recordings import OPTIONS, Recording, Survey, choose, chosen, read, survey
 
 MOST_EPISODES = 40
 """Rows of the table of episodes; the rest is summed up in one."""
@@ -22,7 +22,7 @@ def inspect_recordings(
 ) -> None:
     """Print what is in a file or folder of recordings, read as `Motions.read` would; draw it."""
     check_output("--plot", plot, PICTURES)
-    columns = {name: reading[name] for name in ("format", "episode", "time")}
+    columns = {name: reading[name] for name in ("format", *OPTIONS) if name in reading}
     choice = choose(**{name: told for name, told in reading.items() if name not in columns})
     found = chosen(read(source, **columns), choice)
     numbers = survey(found)

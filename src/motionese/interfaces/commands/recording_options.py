@@ -16,26 +16,39 @@ Number = float | None
 
 
 def _option(name: str, metavar: str, help: str, kind: Any, default: Any = None) -> Parameter:
-    option = Annotated[kind, Option(f"--{name}", metavar=metavar, help=help, rich_help_panel=PANEL)]
+    told = {"metavar": metavar} if metavar else {}
+    option = Annotated[kind, Option(f"--{name}", help=help, rich_help_panel=PANEL, **told)]
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 
 FORMATS = "csv|npz|eipl|robomimic|lerobot|mcap"
 STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
+LEAPS = "Where a channel leaps: nothing, a gap, an episode cut in two, or an error."
 OPTIONS = (
     _option("channels", "PATTERN …", "Channels to take, in this order: 'arm_*'.", Texts),
     _option("exclude", "PATTERN …", "Channels to leave out.", Texts),
     _option("format", FORMATS, "What SOURCE is; else found out.", Text),
+    _option("episodes", "NAMES …", "Episodes to take: 0-9 'pick*'.", Texts),
+    _option("skip", "NAMES …", "Episodes to leave out.", Texts),
+    _option("columns", "NAMES …", "Names of the columns of a table without a header.", Texts),
     _option("episode", "COLUMN", "The column of a CSV that names the episode.", Text),
     _option("time", "COLUMN", "The column of a CSV that is the time.", Text),
     _option("rate", "HZ", "Rows a second, where the recording does not tell.", Number),
     _option("resample", "HZ", "Rows a second to resample to.", Number),
     _option("trim", "SHARE", STILL, float, 0.0),
+    _option("unwrap", "PATTERN …", "Angles that are to go on beyond a full turn.", Texts),
+    _option("quaternion", "PATTERN …", "Quaternions whose signs are to agree.", Texts),
+    _option("leaps", "keep|gap|cut|refuse", LEAPS, str, "keep"),
+    _option("binary", "PATTERN …", "Channels to be held at their two values.", Texts),
+    _option("strict", "", "Refuse what is only told of otherwise.", bool, False),
     _option("nan", "refuse|gap", "What a NaN is: an error, or a gap.", str, "refuse"),
     _option("unit", "PATTERN=UNIT …", "Units: 'arm_*=rad'.", Texts),
     _option("range", "PATTERN=LOW:HIGH …", "Ranges; else the data's and a margin.", Texts),
     _option("margin", "SHARE", "How far ranges reach beyond the data; 0.05.", Number),
 )
+
+LISTS = ("channels", "exclude", "episodes", "skip", "columns", "unwrap", "binary")
+"""Options of several texts that `Motions.read` takes by the same name."""
 
 Command = Callable[..., None]
 
@@ -62,18 +75,17 @@ def with_recording_options(*left_out: str) -> Callable[[Command], Command]:
 
 def as_read(
     *,
-    channels: Texts,
-    exclude: Texts,
     rate: float | None,
     resample: float | None = None,
     unit: Texts = None,
     range: Texts = None,
+    quaternion: Texts = None,
     **others: Any,
 ) -> dict[str, Any]:
     """Return what is given for these options as `Motions.read` takes it."""
+    lists = {name: others.pop(name, None) for name in LISTS} | {"quaternions": quaternion}
     return {
-        "channels": separated(channels) or None,
-        "exclude": separated(exclude),
+        **{name: separated(texts) or None for name, texts in lists.items()},
         "rate_hz": rate,
         "resample_hz": resample,
         "units": read_units(unit),

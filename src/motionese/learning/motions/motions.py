@@ -19,7 +19,7 @@ from motionese.channels import Channels
 from motionese.errors import MotionError, unknown
 from motionese.learning.motions.arrays import channels_of, checked, checked_weights
 from motionese.learning.motions.batch import Batch
-from motionese.recordings import Episode, Recording, choose, prepare
+from motionese.recordings import OPTIONS, Episode, Finding, Recording, choose, prepare
 from motionese.recordings import read as read_recording
 from motionese.recordings import write as write_recording
 
@@ -36,6 +36,8 @@ class Motions:
         names: One name per motion.
         weights: One array [T_i, D] per motion: how much each value counts in the error; None
             where all that was observed counts alike.
+        examined: What was found in the recording they are from, or done to it.
+        held_out: Names of the motions that the recording sets apart for testing.
     """
 
     values: tuple[Float[ndarray, "_ D"], ...]
@@ -44,6 +46,8 @@ class Motions:
     rate_hz: float
     names: tuple[str, ...]
     weights: tuple[Float[ndarray, "_ D"], ...] | None = None
+    examined: tuple[Finding, ...] = ()
+    held_out: tuple[str, ...] = ()
 
     @classmethod
     def from_arrays(
@@ -91,24 +95,16 @@ class Motions:
         return cls(values, masks, channels, float(rate_hz), called, counts)
 
     @classmethod
-    def read(
-        cls,
-        path: str | Path,
-        *,
-        format: str | None = None,
-        episode: str | None = None,
-        time: str | None = None,
-        **choice: Any,
-    ) -> "Motions":
+    def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
         """Read recordings: csv, .npz, LeRobot, EIPL, robomimic, or mcap; a file or a folder.
 
         Args:
             path: The file or folder.
             format: One of `recordings.FORMATS`; found from what is there where left out.
-            episode: The column of a table that names the episode; found where left out.
-            time: The column of a table that holds the time; found where left out.
-            choice: Any of `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`,
-                `trim`, `nan`, `units`, `ranges`, `margin`.
+            given: Any of `recordings.OPTIONS`, which say what is what in a file: `episode`, `time`,
+                `columns`; and any of `recordings.Choice`: `channels`, `exclude`, `rate_hz`,
+                `resample_hz`, `trim`, `nan`, `units`, `ranges`, `margin`, `episodes`, `skip`,
+                `unwrap`, `quaternions`, `leaps`, `binary`, `strict`.
 
         Raises:
             RecordingError: Nothing that can be read there, or a rate that is not told.
@@ -116,15 +112,15 @@ class Motions:
             MotionError: Values that are not finite, or an episode of fewer than two rows.
             ChannelError: A channel that does not exist, or that never changes.
         """
-        chosen = choose(**choice)
-        found = read_recording(path, format, episode=episode, time=time)
-        return cls.from_recording(prepare(found, chosen))
+        told = {name: given.pop(name) for name in OPTIONS if name in given}
+        chosen = choose(**given)
+        return cls.from_recording(prepare(read_recording(path, format, **told), chosen))
 
     @classmethod
     def from_recording(cls, recording: Recording) -> "Motions":
         """Return the motions of a recording that was prepared."""
         assert recording.rate_hz is not None
-        return cls.from_arrays(
+        motions = cls.from_arrays(
             [e.values for e in recording.episodes],
             recording.channels,
             recording.rate_hz,
@@ -133,6 +129,7 @@ class Motions:
             ranges=recording.ranges,
             names=[e.name for e in recording.episodes],
         )
+        return replace(motions, examined=recording.findings, held_out=recording.held_out)
 
     def write(self, path: str | Path, format: str | None = None) -> None:
         """Write the motions without their weights, whole or not at all.
