@@ -64,7 +64,7 @@ def bad_recordings():
         "nan.csv": "nan.csv: episode 'wave', row 3, channel 'x': values must be finite, got nan",
         "inf.csv": "inf.csv: episode 'wave', row 3, channel 'x': values must be finite, got -inf",
         "word.csv": "word.csv, line",
-        "one.csv": "one.csv: episode 'wave' has 1 row; at least 2 are needed",
+        "one.csv": "one.csv: episode 'lift' has 1 row; at least 2 are needed",
         "flat.csv": "flat.csv: channel 'elbow' is always 0: give its range or leave it out",
         "empty.csv": "empty.csv: the file is empty",
         "header.csv": "header.csv: holds no rows below its header",
