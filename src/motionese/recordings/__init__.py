@@ -4,7 +4,7 @@ from motionese.recordings.binary import with_binary
 from motionese.recordings.choice import MARGIN, Choice, choose, chosen
 from motionese.recordings.examination import examined
 from motionese.recordings.finding import Finding, refuse_any
-from motionese.recordings.preparation import prepare, range_of
+from motionese.recordings.preparation import finished, prepare, range_of
 from motionese.recordings.recording import Episode, Recording
 from motionese.recordings.registry import FORMATS, OPTIONS, read, write
 from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
@@ -24,6 +24,7 @@ __all__ = [
     "choose",
     "chosen",
     "examined",
+    "finished",
     "in_units",
     "prepare",
     "range_of",

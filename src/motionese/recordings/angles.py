@@ -26,7 +26,7 @@ def turn_of(values: Sequence[Float[ndarray, " _"]], unit: str) -> float | None:
     short way round leaves steps that are small beside it.
     """
     known = np.concatenate(values) if len(values) else np.empty(0)
-    if not len(known) or len(np.unique(known)) <= 2:
+    if not len(known):
         return None
     whole = bool((known == np.round(known)).all())
     width = float(known.max() - known.min())
@@ -35,6 +35,8 @@ def turn_of(values: Sequence[Float[ndarray, " _"]], unit: str) -> float | None:
         across = np.abs(steps) > turn / 2
         # Whole numbers are degrees, if they are angles at all.
         if not across.any() or width > BEYOND * turn or (whole and turn == TURNS[0]):
+            continue
+        if len(np.unique(known)) <= 2:
             continue
         left = np.abs(np.abs(steps[across]) - turn)
         others = np.abs(steps[~across])

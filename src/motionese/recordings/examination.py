@@ -14,12 +14,12 @@ import numpy as np
 
 from motionese.errors import RecordingError
 from motionese.recordings import quaternions
-from motionese.recordings.angles import turn_of, unwrapped, wraps
+from motionese.recordings.angles import TURNS, turn_of, unwrapped, wraps
 from motionese.recordings.choice import Choice
 from motionese.recordings.finding import Finding
-from motionese.recordings.leaps import leaps, spikes
+from motionese.recordings.leaps import WIDE, leaps, spikes, usual_width
 from motionese.recordings.recording import Episode, Recording
-from motionese.recordings.series import series_of, with_columns
+from motionese.recordings.series import largest_steps, series_of, with_columns
 
 MANY = 0.5
 """Share of the moving channels that leap at once where motions are glued together."""
@@ -48,7 +48,8 @@ def examined(recording: Recording, choice: Choice) -> Recording:
     recording = quaternions.turned_back(unwrapped(recording, choice), given)
     findings, smooth = _wrapping(recording)
     signs, smooth = _changing_signs(smooth)
-    places = {name: _places(smooth, c) for c, name in enumerate(recording.channels)}
+    steps = largest_steps(smooth)
+    places = {n: _places(smooth, c, float(steps[c])) for c, n in enumerate(recording.channels)}
     glued = _glued(recording, places)
     places = {n: _unusual(recording, each, glued) for n, each in places.items()}
     findings += signs
@@ -66,8 +67,8 @@ def examined(recording: Recording, choice: Choice) -> Recording:
 def _wrapping(recording: Recording) -> tuple[list[Finding], Recording]:
     """Return what is told of angles that wrap, and the recording as if they did not."""
     findings, changed = [], {}
-    for column, name in enumerate(recording.channels):
-        series = series_of(recording, column)
+    for column in np.flatnonzero(largest_steps(recording) > min(TURNS) / 2).tolist():
+        name, series = recording.channels[column], series_of(recording, column)
         if (turn := turn_of([s.values for s in series], recording.units[column])) is None:
             continue
         steps = [wraps(s.values, turn) for s in series]
@@ -122,10 +123,10 @@ def _changing_signs(recording: Recording) -> tuple[list[Finding], Recording]:
     return findings, quaternions.turned_back(recording, found)
 
 
-def _places(recording: Recording, column: int) -> list[_Place]:
+def _places(recording: Recording, column: int, largest: float) -> list[_Place]:
     """Return where a channel leaps; a spike's leaps there and back are one place."""
     series = series_of(recording, column)
-    found = leaps(series)
+    found = leaps(series) if largest >= WIDE * usual_width(series) else []
     there_and_back = spikes(found, series)
     paired = {leap for pair in there_and_back for leap in pair}
     places = [
@@ -145,11 +146,12 @@ def _glued(
 ) -> dict[tuple[int, int], int]:
     """Return the episodes and rows at which most channels that move leap at once, and how many."""
     count = Counter((p.episode, p.row) for each in places.values() for p in each if not p.rows)
-    moving = sum(
-        any(len(s.values) and np.ptp(s.values) > 0 for s in series_of(recording, c))
-        for c in range(len(recording.channels))
-    )
-    return {at: n for at, n in sorted(count.items()) if n >= max(2, MANY * moving)}
+    at_once = {at: n for at, n in sorted(count.items()) if n >= 2}
+    if not at_once:
+        return {}
+    widths = (usual_width(series_of(recording, c)) for c in range(len(recording.channels)))
+    moving = sum(width > 0 for width in widths)
+    return {at: n for at, n in at_once.items() if n >= MANY * moving}
 
 
 def _unusual(

@@ -45,7 +45,7 @@ class Leap(NamedTuple):
 
 def leaps(series: Sequence[Series]) -> list[Leap]:
     """Return the leaps of a channel, in the order of its series."""
-    width = _width(series)
+    width = usual_width(series)
     velocities = [_velocities(s) for s in series]
     calm = [_calm(v) if len(v) >= FEWEST else np.ones(len(v), dtype=bool) for v in velocities]
     sizes = [np.abs(np.diff(s.values)) for s in series]
@@ -119,7 +119,7 @@ def _calm(velocities: Float[ndarray, " N"]) -> Bool[ndarray, " N"]:
     return np.asarray(np.abs(velocities) <= FASTER_AROUND * neighbours.max(axis=1).clip(min=0))
 
 
-def _width(series: Sequence[Series]) -> float:
+def usual_width(series: Sequence[Series]) -> float:
     """Return the range of nearly all values [their unit], whatever a few of them are."""
     known = np.concatenate([s.values for s in series])
     low, high = np.quantile(known, (USUAL_LOW, USUAL_HIGH)) if len(known) else (0.0, 0.0)

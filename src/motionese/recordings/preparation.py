@@ -28,8 +28,11 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
             another unit, or span far more rows than there are; or, if strict, any finding.
         SettingError: A rate to resample to that is out of reach.
     """
-    recording = examined(long_enough(chosen(recording, choice)), choice)
-    recording = with_binary(recording, choice)
+    return finished(with_binary(examined(chosen(recording, choice), choice), choice), choice)
+
+
+def finished(recording: Recording, choice: Choice) -> Recording:
+    """Do what `prepare` does with a recording that was chosen from and examined already."""
     recording = finite(long_enough(recording), nan_is_gap=choice.nan == "gap")
     recording = at_one_rate(recording, choice)
     if choice.trim > 0:

@@ -13,6 +13,8 @@ from motionese.recordings.series import with_columns
 
 UNIT_NORM = 0.02
 """How far the squared norm of a unit quaternion may be from 1."""
+FEW = 50
+"""Rows of an episode that show whether a channel may be one of a quaternion's."""
 TURNED = -0.5
 """The product of a row's quaternion and the one before, from which on its sign was changed."""
 
@@ -21,10 +23,10 @@ def groups(episodes: Sequence[Episode]) -> list[list[int]]:
     """Return the columns of every four neighbouring channels that are unit quaternions."""
     if not any(len(e.values) for e in episodes) or episodes[0].values.shape[1] < 4:
         return []
-    squared = np.concatenate([np.where(e.known, e.values, np.nan) ** 2 for e in episodes])
-    windows = np.lib.stride_tricks.sliding_window_view(squared, 4, axis=1).sum(axis=-1)
-    off = np.nan_to_num(np.abs(windows - 1)).max(axis=0, initial=0)
-    off[np.isnan(windows).all(axis=0)] = np.inf
+    # Most columns are none of a quaternion's, which a few rows show.
+    if (_off_unity(episodes, FEW) > UNIT_NORM).all():
+        return []
+    off = _off_unity(episodes, None)
     found: list[list[int]] = []
     # The nearest to unity first: a neighbour may look like one of the four.
     for first in np.argsort(off, kind="stable"):
@@ -32,6 +34,19 @@ def groups(episodes: Sequence[Episode]) -> list[list[int]]:
         if off[first] <= UNIT_NORM and not any(set(four) & set(other) for other in found):
             found.append(four)
     return sorted(found)
+
+
+def _off_unity(episodes: Sequence[Episode], rows: int | None) -> Float[ndarray, " _"]:
+    """Return how far the norm of every four neighbours is from 1 at most, in the first rows."""
+    off = np.full(episodes[0].values.shape[1] - 3, -np.inf)
+    for episode in episodes:
+        known, values = episode.known[:rows], episode.values[:rows]
+        squared = np.square(np.where(known, values, 0.0))
+        for first in range(len(off)):
+            whole = known[:, first : first + 4].all(axis=1)
+            sums = squared[:, first : first + 4].sum(axis=1)
+            off[first] = max(off[first], np.abs(sums[whole] - 1).max(initial=-np.inf))
+    return np.where(np.isinf(off), np.inf, off)
 
 
 def signs(episode: Episode, columns: Sequence[int]) -> Float[ndarray, " T"]:

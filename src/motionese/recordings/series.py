@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from numpy import ndarray
 
-from motionese.recordings.recording import Recording
+from motionese.recordings.recording import LARGEST, Recording
 
 
 class Series(NamedTuple):
@@ -30,10 +30,24 @@ def series_of(recording: Recording, column: int) -> list[Series]:
     series = []
     for episode in recording.episodes:
         values = episode.values[:, column]
-        rows = np.flatnonzero(episode.part(columns=[column]).known[:, 0])
+        rows = np.flatnonzero(episode.observed[:, column] & (np.abs(values) <= LARGEST))
         times = rows.astype(np.float64) if episode.times is None else episode.times[rows]
         series.append(Series(rows, values[rows], times))
     return series
+
+
+def largest_steps(recording: Recording) -> Float[ndarray, " D"]:
+    """Return every channel's largest step between values that follow each other [its unit]."""
+    result = np.zeros(len(recording.channels))
+    for episode in recording.episodes:
+        known = episode.known
+        if known.all():
+            steps = np.abs(np.diff(episode.values, axis=0)).max(axis=0, initial=0)
+        else:
+            columns = zip(episode.values.T, known.T, strict=True)
+            steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
+        result = np.maximum(result, steps)
+    return result
 
 
 def with_columns(

@@ -21,7 +21,7 @@ from motionese.recordings import (
     choose,
     chosen,
     examined,
-    prepare,
+    finished,
     read,
     refuse_any,
     survey,
@@ -40,15 +40,14 @@ def inspect_recordings(
     check_apart([source], plot)
     columns = {name: reading[name] for name in ("format", *OPTIONS) if name in reading}
     choice = choose(**{name: told for name, told in reading.items() if name not in columns})
-    whole = read(source, **columns)
-    found = with_binary(examined(chosen(whole, choice), choice), choice)
-    told, refusal = _learned(whole, choice)
+    found = with_binary(examined(chosen(read(source, **columns), choice), choice), choice)
+    told, refusal = _learned(found, choice)
     numbers = survey(found)
     rate = numbers.rate_hz or choice.rate_hz
     console.print(_heading(found, numbers, rate), soft_wrap=True)
     console.print(_channels(numbers))
     console.print(_episodes(numbers, rate))
-    tell_findings(console, told or found.findings)
+    tell_findings(console, told)
     if refusal:
         console.print(f"! As it stands it cannot be learned from: {refusal}", soft_wrap=True)
     drawn = [e for e in found.episodes if len(e.values)]
@@ -58,15 +57,15 @@ def inspect_recordings(
     write_figure(plot, paths, [e.name for e in drawn], channels, rate, title)
     console.print(f"Plot: {plot}")
     if choice.strict:
-        refuse_any(told or found.findings)
+        refuse_any(told)
 
 
-def _learned(whole: Recording, choice: Choice) -> tuple[tuple[Finding, ...], str]:
-    """Return what would be told of the recording if it were learned from, or why it cannot be."""
+def _learned(found: Recording, choice: Choice) -> tuple[tuple[Finding, ...], str]:
+    """Return what is told of a recording when it is learned from, and why it cannot be."""
     try:
-        return prepare(whole, choice.model_copy(update={"strict": False})).findings, ""
+        return finished(found, choice.model_copy(update={"strict": False})).findings, ""
     except MotioneseError as error:
-        return (), str(error)
+        return found.findings, str(error)
 
 
 def _heading(found: Recording, numbers: Survey, rate: float | None) -> str:
