@@ -148,12 +148,17 @@ class Motions:
         rows = zip(self.names, self.values, self.observed, strict=True)
         kept = tuple(Episode(name, None, value, mask) for name, value, mask in rows)
         recording = Recording(Path(path), names, units, ranges, self.rate_hz, kept, names)
-        write_recording(path, recording, format)
+        write_recording(path, replace(recording, held_out=self.set_apart), format)
 
     @property
     def lengths(self) -> tuple[int, ...]:
         """Rows of every motion."""
         return tuple(len(v) for v in self.values)
+
+    @property
+    def set_apart(self) -> tuple[str, ...]:
+        """Names of the motions here that the recording sets apart for testing."""
+        return tuple(name for name in self.names if name in self.held_out)
 
     def chosen(self, which: Sequence[int | str]) -> "Motions":
         """Return the motions of these names or indices, in this order.

@@ -17,7 +17,7 @@ from motionese.recordings.recording import Episode, Recording
 
 FORMAT, VERSION = "motionese-motions", 1
 METADATA = "metadata"
-SHARED = ("channels", "units", "ranges", "rate_hz", "usual")
+SHARED = ("channels", "units", "ranges", "rate_hz", "usual", "held_out")
 """What the metadata tell just as a recording does."""
 
 
@@ -32,6 +32,7 @@ class Metadata(BaseModel):
     rate_hz: float | None
     usual: tuple[str, ...]
     episodes: tuple[str, ...]
+    held_out: tuple[str, ...] = ()
     format: str = FORMAT
     version: int = VERSION
 
