@@ -1,11 +1,14 @@
 """Folders of EIPL: padding is turned into lengths."""
 
+import shutil
+
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 
-from motionese.errors import RecordingError
+from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
 
 
@@ -163,3 +166,41 @@ def test_arrays_that_do_not_fit_are_refused(tmp_path, joints, bounds, match):
 
     with pytest.raises(RecordingError, match=match):
         read(tmp_path)
+
+
+ARRAYS = arrays(
+    st.sampled_from(["f8", "f4", "i4", "u1", "?", "U2"]),
+    array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=4),
+)
+PARTS = st.dictionaries(
+    st.sampled_from(["joints", "train/joints", "test/joints", "train/force", "joint_bounds"]),
+    ARRAYS | arrays("f8", st.tuples(st.just(3), st.integers(1, 5), st.just(2))),
+    min_size=1,
+)
+
+
+def made_up(tmp_path_factory, parts):
+    """Read a folder of any arrays: a recording or one sentence."""
+    folder = tmp_path_factory.mktemp("made_up")
+    for name, array in parts.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        np.save(folder / f"{name}.npy", array)
+    try:
+        found = read(folder, "eipl")
+        assert all(finding.sentence for finding in found.findings)
+    except MotioneseError as error:
+        assert "\n" not in str(error)
+    shutil.rmtree(folder)
+
+
+@settings(max_examples=60)
+@given(PARTS)
+def test_any_arrays_give_a_recording_or_one_sentence(tmp_path_factory, parts):
+    made_up(tmp_path_factory, parts)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(PARTS)
+def test_many_arrays_do_too(tmp_path_factory, parts):
+    made_up(tmp_path_factory, parts)

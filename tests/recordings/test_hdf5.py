@@ -127,6 +127,16 @@ def test_where_rates_differ_each_episode_keeps_its_times(tmp_path):
     assert [e.times[1] for e in found.episodes] == [1 / 50, 1 / 20]
 
 
+def test_a_file_that_does_not_tell_the_rate_that_others_do_is_told(tmp_path):
+    for name, told in {"a": {"fps": 50}, "b": {}, "c": {}}.items():
+        aloha(tmp_path / f"{name}.hdf5", **told)
+    (finding,) = read(tmp_path).findings
+
+    assert finding.sentence == (
+        f"{tmp_path / 'b.hdf5'}: tells no rate: taken to be at that of the other files (2 times)"
+    )
+
+
 def test_trajectories_of_maniskill_are_read(tmp_path):
     found = read(maniskill(tmp_path / "trajectory.h5"))
 

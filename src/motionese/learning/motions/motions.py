@@ -96,7 +96,7 @@ class Motions:
 
     @classmethod
     def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
-        """Read recordings: csv, .npz, LeRobot, EIPL, robomimic, or mcap; a file or a folder.
+        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, or mcap; a file or a folder.
 
         Args:
             path: The file or folder.

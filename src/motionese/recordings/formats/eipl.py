@@ -29,7 +29,7 @@ def read(path: Path) -> Recording:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
     contents = [(part, *_part(part)) for part in parts]
     channels = contents[0][1]
-    padded: dict[str, Float[ndarray, "T D"]] = {}
+    padded: dict[str, Float[ndarray, "_ D"]] = {}
     for part, names, rows in contents:
         if names != channels:
             raise RecordingError(
@@ -87,7 +87,7 @@ def _part(folder: Path) -> tuple[tuple[str, ...], Float[ndarray, "N T D"]]:
 
 
 def _cut(
-    path: Path, padded: Mapping[str, Float[ndarray, "T D"]], lengths: Sequence[int]
+    path: Path, padded: Mapping[str, Float[ndarray, "_ D"]], lengths: Sequence[int]
 ) -> Iterable[Finding]:
     """Yield, once, that rows were left out."""
     cut = {n: len(rows) - k for (n, rows), k in zip(padded.items(), lengths, strict=True)}

@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float
 from numpy import ndarray
 
 
-def recorded_lengths(padded: Sequence[Float[ndarray, "T D"]]) -> list[int]:
+def recorded_lengths(padded: Sequence[Float[ndarray, "_ D"]]) -> list[int]:
     """Return how many rows of every episode were recorded, up to the first of the padding.
 
     Episodes that are padded to different lengths, as they are in two folders, are no measure for

@@ -83,7 +83,7 @@ def _joined(path: Path, parts: Sequence[_Part]) -> Recording:
         rate_hz=rate,
         episodes=tuple(e for r in recordings for e in _episodes(r, usual.channels, rate)),
         held_out=tuple(_called(r, name) for r in recordings for name in r.held_out),
-        findings=_merged(f for r in recordings for f in r.findings),
+        findings=_merged([*(f for r in recordings for f in r.findings), *_untold(recordings)]),
     )
 
 
@@ -124,6 +124,13 @@ def _episodes(
         times = None if rate_hz is not None else episode.times_at(recording.rate_hz)
         name = _called(recording, episode.name)
         yield replace(episode.part(columns=order), name=name, times=times)
+
+
+def _untold(recordings: Sequence[Recording]) -> Iterable[Finding]:
+    """Yield every file that does not tell its rate, where others do."""
+    if any(recording.rate_hz for recording in recordings):
+        what = "tells no rate: taken to be at that of the other files"
+        yield from (Finding("time", r.source, what) for r in recordings if not r.rate_hz)
 
 
 def _called(recording: Recording, name: str) -> str:
