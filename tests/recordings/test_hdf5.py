@@ -202,17 +202,17 @@ def test_every_row_is_in_one_episode_that_ends_where_one_is_marked(marks):
 
 def another_layout(folder):
     robomimic(folder / "b.hdf5")
-    return r"b\.hdf5: in the layout of robomimic; most files, such as a\.hdf5, in that of ALOHA"
+    return r"b\.hdf5: in the layout of robomimic; others, such as a\.hdf5, in that of ALOHA"
 
 
 def a_channel_less(folder):
     aloha(folder / "b.hdf5", joints=2)
-    return r"b\.hdf5: has no channel 'action_2', which most files, such as a\.hdf5, have"
+    return r"b\.hdf5: has no channel 'action_2', which others, such as a\.hdf5, have"
 
 
 def a_channel_more(folder):
     aloha(folder / "b.hdf5", joints=4)
-    return r"b\.hdf5: has a channel 'action_3', which most files, such as a\.hdf5, do not have"
+    return r"b\.hdf5: has a channel 'action_3', which others, such as a\.hdf5, do not have"
 
 
 def not_hdf5(folder):
@@ -247,6 +247,14 @@ def test_rows_that_do_not_agree_are_refused(tmp_path, layout):
         file[name] = np.zeros((4, 2))
     with pytest.raises(RecordingError, match="they must agree"):
         read(path)
+
+
+def test_ends_that_are_not_told_of_every_row_are_refused(tmp_path):
+    with h5py.File(d4rl(tmp_path / "flat.hdf5"), "a") as file:
+        del file["timeouts"]
+        file["timeouts"] = np.zeros(9, bool)
+    with pytest.raises(RecordingError, match=r"has 10 rows, timeouts the shape \(9,\); they must"):
+        read(tmp_path / "flat.hdf5")
 
 
 def test_a_file_that_is_cut_short_or_foreign_is_refused(tmp_path):

@@ -92,7 +92,7 @@ def _check_alike(parts: Sequence[_Part]) -> Recording:
     kinds = [_kind(part) for part in parts]
     (most, _), *_ = Counter(kinds).most_common(1)
     usual = parts[kinds.index(most)].recording
-    others = f"most files, such as {usual.source.name},"
+    others = f"others, such as {usual.source.name},"
     for part, (layout, channels) in zip(parts, kinds, strict=True):
         here = part.recording.source
         if layout != most[0]:
