@@ -115,6 +115,7 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         ranges={c: r for c, r in recording.ranges.items() if c in kept},
         binary={c: two for c, two in recording.binary.items() if c in kept},
         usual=kept,
+        findings=tuple(f for f in recording.findings if f.channel not in {*everything} - {*kept}),
     )
 
 

@@ -243,6 +243,7 @@ def _gapped(
 def _cut(recording: Recording, places: Mapping[str, Sequence[_Place]]) -> Recording:
     """Return a recording whose episodes end where a channel leaps, and go on as further ones."""
     episodes: list[Episode] = []
+    held_out: list[str] = []
     for i, episode in enumerate(recording.episodes):
         rows = {p.row for each in places.values() for p in each if p.episode == i and not p.rows}
         ends = [0, *sorted(rows), len(episode.values)]
@@ -251,4 +252,5 @@ def _cut(recording: Recording, places: Mapping[str, Sequence[_Place]]) -> Record
             times = None if episode.times is None else episode.times[start:stop]
             name = f"{episode.name}/{number}" if rows else episode.name
             episodes.append(replace(part, name=name, times=times))
-    return replace(recording, episodes=tuple(episodes))
+            held_out += [name] if episode.name in recording.held_out else []
+    return replace(recording, episodes=tuple(episodes), held_out=tuple(held_out))

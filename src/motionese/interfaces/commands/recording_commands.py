@@ -20,8 +20,9 @@ def import_recordings(
 ) -> None:
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
 
-    SOURCE is a CSV or a folder of them, a LeRobot folder, robomimic HDF5, an EIPL folder, MCAP
-    with JSON messages, or .npz that motionese wrote.
+    SOURCE is a CSV or a folder of them, a LeRobot folder, HDF5 of robomimic, ALOHA,
+    ManiSkill or D4RL or a folder of it, an EIPL folder, MCAP with JSON messages, or .npz that
+    motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
         from motionese.interfaces.commands.outputs import check_apart

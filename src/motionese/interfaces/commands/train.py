@@ -56,6 +56,7 @@ def train_model(
     context = read_levels(levels)
     motions = Motions.read(source, **reading)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
+    told = held_out is None and motions.set_apart
     drawn, noise = jax.random.split(jax.random.key(seed))
     network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
     done = epochs_done(checkpoint) if resume else 0
@@ -63,7 +64,8 @@ def train_model(
     tell_findings(console, motions.examined)
     console.print(
         f"Levels io {len(motions.channels)}:{io_tau:g}, {levels}; {len(learned)} motions to learn, "
-        f"{len(unseen or ())} held out; Ctrl-C stops, --resume goes on"
+        f"{len(unseen or ())} held out{', as the file says' if told else ''}; "
+        "Ctrl-C stops, --resume goes on"
     )
     display = TrainingDisplay(console, settings.epochs, done)
     with open_logs(logs, out, done) as log, display:

@@ -96,7 +96,7 @@ class Motions:
 
     @classmethod
     def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
-        """Read recordings: csv, .npz, LeRobot, EIPL, robomimic, or mcap; a file or a folder.
+        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, or mcap; a file or a folder.
 
         Args:
             path: The file or folder.
@@ -155,7 +155,7 @@ class Motions:
         kept = tuple(Episode(name, None, value, mask) for name, value, mask in rows)
         binary = {c.name: c.binary for c in self.channels if c.binary is not None}
         recording = Recording(
-            Path(path), names, units, ranges, self.rate_hz, kept, names, binary, self.held_out
+            Path(path), names, units, ranges, self.rate_hz, kept, names, binary, self.set_apart
         )
         write_recording(path, recording, format)
 
@@ -163,6 +163,11 @@ class Motions:
     def lengths(self) -> tuple[int, ...]:
         """Rows of every motion."""
         return tuple(len(v) for v in self.values)
+
+    @property
+    def set_apart(self) -> tuple[str, ...]:
+        """Names of the motions here that the recording sets apart for testing."""
+        return tuple(name for name in self.names if name in self.held_out)
 
     def chosen(self, which: Sequence[int | str]) -> "Motions":
         """Return the motions of these names or indices, in this order.

@@ -14,6 +14,7 @@ from motionese.errors import RecordingError
 from motionese.recordings.formats.conventions import UNREADABLE, fault, why
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.told_rate import as_timed
 
 FORMAT, VERSION = "motionese-motions", 1
 METADATA = "metadata"
@@ -67,7 +68,8 @@ def read(path: Path) -> Recording:
         raise RecordingError(
             f"{path}: not a whole file of motions that motionese wrote: {why(error)}"
         ) from error
-    return Recording(source=path, episodes=episodes, **metadata.model_dump(include={*SHARED}))
+    told = metadata.model_dump(include={*SHARED})
+    return as_timed(Recording(source=path, episodes=episodes, **told))
 
 
 def write(path: Path, recording: Recording) -> None:
