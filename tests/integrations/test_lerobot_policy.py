@@ -19,7 +19,7 @@ from typer.testing import CliRunner
 from motionese.channels import Channel, Channels
 from motionese.errors import ControlError, MotioneseError
 from motionese.network import MTRNN, Level, write_network
-from motionese.runtime import ControlLoop, OnlineRecognition, Player, load
+from motionese.runtime import ControlLoop, Player, load
 
 PACKAGE = "lerobot_policy_motionese"
 SOURCE = Path(__file__).parents[2] / "integrations" / PACKAGE / "src"
@@ -245,7 +245,9 @@ def test_a_motion_is_recognised_by_where_the_robot_is(policy_of, actions_of, sav
     policy = policy_of(path)
     with caplog.at_level(logging.INFO):
         actions = actions_of(policy, [way[6]] * 12)[:, 0]
-    assert "recognised motion 'wave' in its row 6" in caplog.text and "9 steps" in caplog.text
+    assert (
+        "recognised motion 'wave' in its row 6" in caplog.text and "9 steps at 20 Hz" in caplog.text
+    )
     np.testing.assert_allclose(actions[8], way[15], atol=0.02 * 135)
     np.testing.assert_array_equal(actions[8:], actions[[8] * 4])
 
@@ -305,6 +307,19 @@ def test_a_chunk_is_one_action(policy_of, saved, tensor):
     policy.reset()
     np.testing.assert_array_equal(chunk.numpy()[:, 0], policy.select_action(batch).numpy())
     assert chunk.shape == (2, 1, 3)
+
+
+def test_actions_stay_within_the_ranges(policy_of, actions_of, saved):
+    actions = actions_of(policy_of(saved(*JOINTS)), [[2.5, -120.0, -0.2]] * 16, "wave")[:, 0]
+    low, high = [-1.0, -90.0, 0.0], [2.0, 45.0, 1.0]
+    np.testing.assert_array_equal(actions[0], [2.0, -90.0, 0.0])
+    np.testing.assert_array_equal(actions, np.clip(actions, low, high))
+
+
+def test_a_robot_in_another_unit_is_not_moved(policy_of, actions_of, saved):
+    policy = policy_of(saved(*JOINTS))
+    with pytest.raises(ControlError, match=r"channel 'lift\.pos' is at 57, far outside its limits"):
+        actions_of(policy, [[57.0, -10.0, 0.6]], "reach")
 
 
 def test_what_is_loaded_can_be_saved(policy_of, saved, tmp_path):
@@ -415,9 +430,7 @@ def test_lerobot_finds_the_plug_in_by_its_names(part):
     assert f'name = "{PACKAGE}"' in (SOURCE.parent / "pyproject.toml").read_text()
 
 
-def test_recognition_needs_lengths(policy_of, saved):
-    path = saved(*JOINTS, lengths=None)
+def test_a_model_that_cannot_be_played_gets_no_folder(part, saved, tmp_path):
     with pytest.raises(ControlError, match="how long its motions are"):
-        OnlineRecognition(load(path))
-    with pytest.raises(ControlError, match="how long its motions are"):
-        policy_of(path)
+        part("policy_folder").write(saved(*JOINTS, lengths=None), tmp_path / "policy")
+    assert not (tmp_path / "policy").exists()

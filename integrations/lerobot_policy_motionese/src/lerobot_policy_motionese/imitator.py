@@ -7,7 +7,8 @@ import numpy as np
 from numpy import ndarray
 
 from motionese.errors import ControlError, unknown
-from motionese.runtime import NONE, OnlineRecognition, Part, Player, RuntimeModel
+from motionese.runtime import NONE, Limits, OnlineRecognition, Part, Player, RuntimeModel
+from motionese.runtime.limits import Limiter
 from motionese.runtime.player import shares
 from motionese.runtime.schedule import schedule
 
@@ -61,14 +62,15 @@ class Imitator:
         self._columns, self._sensed = np.array(known, dtype=np.intp).reshape(-1, 2).T
         self._acted = np.array([places[name] for name in action], dtype=np.intp)
         self._next = np.isin(self._acted, self._sensed)
-        # An unknown place for what keeps a command still: that of the last entry, a NaN.
+        # Where no channel tells what keeps a command still, it is the place behind all: a NaN.
         self._stays = np.array([places.get(sensed_as(n), len(places)) for n in action], np.intp)
-        self._stays[self._next] = self._acted[self._next]
         self._model, self._state, self._action = model, tuple(state), tuple(action)
         self._motion, self._share, self._watch = motion, share, watch
         self._recognition = OnlineRecognition(
             model, observed=[model.channels[place] for place in self._sensed], ahead=0
         )
+        # No speeds are limited, and with them no rate counts.
+        self._limiter = Limiter(model, Limits(), rate_hz=1.0)
         self._player: Player | None = None
         self._left, self._said = 0, ""
 
@@ -80,8 +82,9 @@ class Imitator:
             task: A learned motion by its name; any other text leaves it to recognition.
 
         Raises:
-            ControlError: Another number of columns; a prediction that is not finite; there is
-                nothing recognised, and no telling what keeps the robot still.
+            ControlError: Another number of columns; a motion is to begin far outside the channels'
+                ranges; a prediction is not finite; nothing is recognised, and no telling what
+                keeps the robot still.
         """
         if np.shape(observed) != (len(self._state),):
             raise ControlError(
@@ -123,11 +126,14 @@ class Imitator:
             )
 
     def _play(self, part: Part, reading: ndarray, sentence: str) -> None:
+        self._limiter.check_start(reading)
         [scheduled] = schedule(self._model, (part,))
         self._player = Player(self._model, self._model.begin(part.start, reading), self._share)
         self._player.set_out(scheduled.blend)
         self._left = scheduled.steps
-        self._say(logging.INFO, f"{sentence}, {self._left} steps")
+        rate = self._model.rate_hz
+        at = "" if rate is None else f" at {rate:g} Hz"
+        self._say(logging.INFO, f"{sentence}, {self._left} steps{at}")
 
     def _moved(self, player: Player, reading: ndarray) -> ndarray:
         present = player.row
@@ -138,8 +144,8 @@ class Imitator:
                 raise ControlError("the prediction is not finite, and not sent: train it longer")
         else:
             self._say(logging.INFO, "has played the motion and keeps still")
-        row = np.where(self._next, player.row[self._acted], present[self._acted])
-        return np.clip(row, self._model.low[self._acted], self._model.high[self._acted])
+        present, following = (self._limiter.limit(row, row) for row in (present, player.row))
+        return np.where(self._next, following[self._acted], present[self._acted])
 
     def _still(self, reading: ndarray) -> ndarray:
         action = np.append(reading, np.nan)[self._stays]
