@@ -266,7 +266,8 @@ def test_what_is_none_of_the_motions_keeps_the_robot_still(policy_of, actions_of
     away = np.array([1.9, -85.0, 0.02])
     actions = actions_of(policy, [away, away + 0.01, away], "make tea")[:, 0]
     np.testing.assert_allclose(actions, [away, away + 0.01, away], rtol=1e-6)
-    assert caplog.text.count("none of the learned motions; name one of reach, wave") == 1
+    sentence = "is no learned motion's name; keeps still: what is observed is none of the learned"
+    assert caplog.text.count(f"{sentence} motions; name one of reach, wave as") == 1
 
 
 def test_where_a_motion_ends_the_robot_keeps_still(policy_of, actions_of, saved, caplog):

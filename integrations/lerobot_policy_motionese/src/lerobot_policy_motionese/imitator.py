@@ -107,13 +107,14 @@ class Imitator:
         known = self._recognition.observe(reading)
         if known.row + 1 < self._watch:
             return
+        untold = f"task '{task}' is no learned motion's name; " if task else ""
         name, row = known.learned
         left = self._model.lengths[name] - 1 - row
         if known.belief[NONE] >= HALF:
             self._say(
                 logging.WARNING,
-                "keeps still: what is observed is none of the learned motions; name one of "
-                f"{', '.join(self._model.initial_states)} as the task or by --policy.motion",
+                f"{untold}keeps still: what is observed is none of the learned motions; name one "
+                f"of {', '.join(self._model.initial_states)} as the task or by --policy.motion",
             )
         elif left < 1:
             self._say(logging.WARNING, f"keeps still: it is where motion '{name}' ends")
@@ -121,7 +122,7 @@ class Imitator:
             self._play(
                 Part(known.potentials, steps=left),
                 reading,
-                f"recognised motion '{name}' in its row {row} "
+                f"{untold}recognised motion '{name}' in its row {row} "
                 f"(belief {known.belief[name]:.2f}) and plays it from there",
             )
 
