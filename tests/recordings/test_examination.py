@@ -40,7 +40,10 @@ def wrapped(angle, turn, low):
     return (np.asarray(angle) - low) % turn + low
 
 
-@given(SEEDS, st.sampled_from([(2 * np.pi, "rad"), (360.0, "deg"), (2 * np.pi, ""), (360.0, "")]))
+TURNS = [(2 * np.pi, "rad"), (360.0, "deg"), (2 * np.pi, ""), (360.0, ""), (4096.0, "")]
+
+
+@given(SEEDS, st.sampled_from(TURNS))
 def test_an_angle_that_wraps_is_told_and_unwrapped(seed, turn_and_unit):
     (turn, unit), rng = turn_and_unit, np.random.default_rng(seed)
     angle = turn * (0.3 * strokes(rng, 3) + rng.uniform(-2, 2))
@@ -59,7 +62,9 @@ def test_an_angle_that_wraps_is_told_and_unwrapped(seed, turn_and_unit):
     else:
         assert not told
     assert not mended.findings
-    np.testing.assert_allclose(np.diff(mended.episodes[0].values[:, 0]), np.diff(angle), atol=1e-9)
+    np.testing.assert_allclose(
+        np.diff(mended.episodes[0].values[:, 0]), np.diff(angle), atol=1e-9 * turn
+    )
 
 
 def test_unwrapped_episodes_begin_within_half_a_turn_of_each_other_or_of_the_range_given():

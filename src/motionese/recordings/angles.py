@@ -11,8 +11,8 @@ from motionese.recordings.choice import Choice, given_ranges, matching
 from motionese.recordings.recording import Recording
 from motionese.recordings.series import Series, series_of, with_columns
 
-TURNS = (2 * np.pi, 360.0)
-"""A full turn [rad, deg]."""
+TURNS = (2 * np.pi, 360.0, 2.0**12, 2.0**14, 2.0**16)
+"""A full turn [rad, deg, counts of encoders]."""
 NEAR_END = 0.15
 """Share of a turn that a step across its end may at most differ from a whole one."""
 BEYOND = 1.01
@@ -47,9 +47,9 @@ def turn_of(values: Sequence[Float[ndarray, " _"]], unit: str) -> float | None:
 
 
 def turns_in(unit: str) -> tuple[float, ...]:
-    """Return the full turns that an angle may have in a unit; of both units where it is unknown."""
+    """Return the full turns that an angle may have in a unit; all where it is unknown."""
     by_unit = {"": TURNS, "rad": TURNS[:1], "radians": TURNS[:1]}
-    by_unit |= dict.fromkeys(("deg", "°", "degree", "degrees"), TURNS[1:])
+    by_unit |= dict.fromkeys(("deg", "°", "degree", "degrees"), TURNS[1:2])
     return by_unit.get(unit.strip().casefold(), ())
 
 
@@ -77,8 +77,9 @@ def unwrapped(recording: Recording, choice: Choice) -> Recording:
                 "to unwrap; --unwrap takes angles in rad or deg"
             )
         known = np.concatenate([s.values for s in series])
-        wide = len(known) > 0 and np.ptp(known) > BEYOND * turns[0]
-        turn = turn_of([s.values for s in series], unit) or turns[-1 if wide else 0]
+        width = float(np.ptp(known)) if len(known) else 0.0
+        within = next((turn for turn in turns if width <= BEYOND * turn), turns[-1])
+        turn = turn_of([s.values for s in series], unit) or within
         start = float(np.mean(ranges[name])) if name in ranges else None
         changed[column] = _continued(recording, column, series, turn, start)
     return with_columns(recording, changed)
