@@ -76,7 +76,7 @@ def _wrapping(recording: Recording) -> tuple[list[Finding], Recording]:
         one, step = series[first], int(steps[first][0])
         size = float(abs(one.values[step + 1] - one.values[step]))
         what = (
-            f"leaps from {one.values[step]:.4g} to {one.values[step + 1]:.4g}, an angle that wraps"
+            f"leaps from {one.values[step]:.6g} to {one.values[step + 1]:.6g}, an angle that wraps"
         )
         findings.append(
             Finding(

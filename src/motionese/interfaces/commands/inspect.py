@@ -41,8 +41,8 @@ def inspect_recordings(
     columns = {name: reading[name] for name in ("format", *OPTIONS) if name in reading}
     choice = choose(**{name: told for name, told in reading.items() if name not in columns})
     found = with_binary(examined(chosen(read(source, **columns), choice), choice), choice)
-    told, refusal = _learned(found, choice)
     numbers = survey(found)
+    told, refusal = _learned(found, choice, numbers.rate_hz)
     rate = numbers.rate_hz or choice.rate_hz
     console.print(_heading(found, numbers, rate), soft_wrap=True)
     console.print(_channels(numbers))
@@ -60,10 +60,17 @@ def inspect_recordings(
         refuse_any(told)
 
 
-def _learned(found: Recording, choice: Choice) -> tuple[tuple[Finding, ...], str]:
-    """Return what is told of a recording when it is learned from, and why it cannot be."""
+def _learned(
+    found: Recording, choice: Choice, rate_hz: float | None
+) -> tuple[tuple[Finding, ...], str]:
+    """Return what is told of a recording when it is learned from, and why it cannot be.
+
+    That no rate is known stands above the tables already.
+    """
+    rate = choice.rate_hz if rate_hz is not None else choice.rate_hz or 1.0
     try:
-        return finished(found, choice.model_copy(update={"strict": False})).findings, ""
+        given = choice.model_copy(update={"strict": False, "rate_hz": rate})
+        return finished(found, given).findings, ""
     except MotioneseError as error:
         return found.findings, str(error)
 
