@@ -41,14 +41,17 @@ OPTIONS = {
 }
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
-TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
+TABLES = tuple(
+    "*." + "".join(f"[{letter}{letter.upper()}]" for letter in suffix[1:])
+    for suffix in csv.SUFFIXES
+)
 FORMATS = {
     "npz": Format("motionese's own .npz", npz, (".npz",)),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
     "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
-    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, (*OPTIONS,)),
+    "csv": Format(".csv or a folder of them", csv, csv.SUFFIXES, TABLES, (*OPTIONS,)),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")

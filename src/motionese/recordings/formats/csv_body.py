@@ -22,9 +22,7 @@ NAN, INFINITE = re.compile(rb"(?i)\bnan\b"), re.compile(rb"(?i)\binf(inity)?\b")
 Body = tuple[Float[ndarray, "T K"], Bool[ndarray, "T K"], tuple[tuple[str, ...], ...]]
 
 
-def read_body(
-    file: BinaryIO, separator: str, width: int, textual: Sequence[int]
-) -> Body | None:
+def read_body(file: BinaryIO, separator: str, width: int, textual: Sequence[int]) -> Body | None:
     """Return the numbers of a table's rows, what was observed of them, and columns of text.
 
     Args:
@@ -48,7 +46,11 @@ def read_body(
     if not parts:
         return None
     values, seen = (np.concatenate(kind).reshape(-1, narrow) for kind in zip(*parts, strict=True))
-    return values, seen, tuple(map(tuple, words))
+    rows = len(values)
+    # Spreadsheets end a table with lines of nothing but separators.
+    while rows and not (seen[rows - 1].any() or any(column[rows - 1] for column in words)):
+        rows -= 1
+    return (values[:rows], seen[:rows], tuple(tuple(w[:rows]) for w in words)) if rows else None
 
 
 def _chunks(file: BinaryIO) -> Iterator[bytes]:
@@ -103,16 +105,17 @@ def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Bool[ndarra
     """
     # A null at the end of every row shows whether all rows are as wide.
     text = b"[" + lines.replace(b"\n", b",null,") + b"]"
+    whole = b"null" not in lines
     try:
         found = from_json(text)
     except ValueError:
+        whole = False
         text = NAN.sub(b"NaN", INFINITE.sub(b"Infinity", EMPTY.sub(b"null", text)))
         found = from_json(text)
     ends, breaks = slice(width, None, width + 1), lines.count(b"\n")
     if len(found) != (breaks + 1) * (width + 1) - 1 or found[ends].count(None) != breaks:
         raise ValueError("rows of another width")
     del found[ends]
-    try:
+    if whole:
         return np.fromiter(found, np.float64, len(found)), np.ones(len(found), dtype=bool)
-    except TypeError:
-        return np.array(found, dtype=np.float64), np.array([cell is not None for cell in found])
+    return np.array(found, dtype=np.float64), np.array([cell is not None for cell in found])

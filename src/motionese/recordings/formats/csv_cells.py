@@ -44,7 +44,7 @@ def plain(cell: str, *, decimal_comma: bool) -> str:
 
 
 def moment(cell: str) -> datetime | None:
-    """Return a date with its time of the day, or the time of a day alone; None for anything else."""
+    """Return a date, perhaps with its time of day, or a time of day alone; None for others."""
     for text in (cell, f"1970-01-01T{cell}"):
         try:
             return datetime.fromisoformat(text)

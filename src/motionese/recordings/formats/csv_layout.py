@@ -88,7 +88,8 @@ def _at(lines: Sequence[str], start: int, above: tuple[str, ...]) -> Layout:
         rows, ends = [], []
     if not rows:
         return Layout(separator, (), (), start, (), above, sure=False)
-    header, below = (), 0
+    header: tuple[str, ...] = ()
+    below = 0
     if named := _named_above(lines[:start], rows[0], separator):
         header = named
     elif is_header(rows[0]):

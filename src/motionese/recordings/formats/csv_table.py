@@ -75,9 +75,7 @@ class Table:
         )
 
 
-def read_table(
-    path: Path, columns: Sequence[str] | None, is_text: Callable[[str], bool]
-) -> Table:
+def read_table(path: Path, columns: Sequence[str] | None, is_text: Callable[[str], bool]) -> Table:
     """Read a text file.
 
     Args:
