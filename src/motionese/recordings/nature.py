@@ -18,7 +18,7 @@ YEARS = (9.4e8, 2.6e9)
 CLOCKS = {1.0: "s", 1e-3: "ms", 1e-6: "µs", 1e-9: "ns"}
 """Units of clocks [s]."""
 FEWEST = 10
-"""Rows of an episode by which a number of rows, or a clock that began with it, is known."""
+"""Rows of most episodes by which a number of rows, or a clock that began with them, is known."""
 FEWEST_RUNS = 3
 """Episodes by which their number is known."""
 GLANCE = 12
@@ -54,14 +54,14 @@ def since_1970(column: Column) -> float | None:
 
 def beside(column: Column, times: Column) -> float | None:
     """Return the unit [s] of a clock that rises as `times` [s] do; None for any other column."""
-    if max(map(len, column), default=0) < FEWEST:
+    if not _long(column):
         return None
     return next((unit for unit in CLOCKS if _follows(column, times, unit)), None)
 
 
 def counts_rows(column: Column) -> bool:
     """Tell whether a column of whole numbers rises by one from row to row in every episode."""
-    if max(map(len, column), default=0) < FEWEST:
+    if not _long(column):
         return False
     for rows in (_glances(column), column):
         if not all((v == np.round(v)).all() and (np.diff(v) == 1).all() for v in rows):
@@ -110,6 +110,10 @@ def _shown(recording: Recording, column: int) -> str:
     if len(known) == len(values) and (unit := beside(values, known)):
         return f"is a clock, rising by the {CLOCKS[unit]} from row to row"
     return ""
+
+
+def _long(column: Column) -> bool:
+    return len(column) > 0 and float(np.median([len(values) for values in column])) >= FEWEST
 
 
 def _glances(column: Column) -> Column:

@@ -15,7 +15,7 @@ from motionese.errors import RecordingError
 from motionese.recordings.finding import merged
 from motionese.recordings.formats import csv_episodes, csv_times
 from motionese.recordings.formats.csv_columns import channels_of, matrix
-from motionese.recordings.formats.csv_folder import SUFFIXES, tables_in
+from motionese.recordings.formats.csv_folder import SUFFIXES, SURE, patterns, tables_in
 from motionese.recordings.formats.csv_names import (
     EPISODE,
     TIME,
@@ -29,7 +29,7 @@ from motionese.recordings.formats.csv_table import Table, read_table
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
 
-__all__ = ["SUFFIXES", "read", "write"]
+__all__ = ["SUFFIXES", "SURE", "patterns", "read", "write"]
 
 
 def read(

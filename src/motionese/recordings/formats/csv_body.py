@@ -37,6 +37,8 @@ def read_body(file: BinaryIO, separator: str, width: int, textual: Sequence[int]
     words: list[list[str]] = [[] for _ in textual]
     parts: list[tuple[Float[ndarray, " _"], Bool[ndarray, " _"]]] = []
     narrow = width - len(textual)
+    if not narrow:
+        return None
     try:
         for lines in _chunks(file):
             plain = _without_text(_with_commas(lines, separator), width, textual, words)

@@ -18,6 +18,12 @@ SHOWN = 6
 """Names of columns that are told."""
 
 
+def patterns(suffixes: Sequence[str]) -> tuple[str, ...]:
+    """Return the patterns of files that end so, in small letters or capitals."""
+    either = ("".join(f"[{c}{c.upper()}]" for c in suffix[1:]) for suffix in suffixes)
+    return tuple(f"[!.]*.{letters}" for letters in either)
+
+
 def tables_in(
     folder: Path, columns: Sequence[str] | None, is_text: Callable[[str], bool]
 ) -> tuple[list[Table], list[Finding]]:
