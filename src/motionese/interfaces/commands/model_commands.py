@@ -77,7 +77,7 @@ def train(
         )
 
 
-@with_recording_options("unit", "range", "margin")
+@with_recording_options("range", "margin", "binary")
 def recognise(
     model: Model,
     motion: Annotated[Path, Argument(metavar="MOTION", help="A recording of motions.")],

@@ -24,12 +24,15 @@ def import_recordings(
     with JSON messages, or .npz that motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
-        from motionese.interfaces.commands.summaries import description
+        from motionese.interfaces.commands.outputs import check_apart
+        from motionese.interfaces.commands.summaries import description, tell_findings
         from motionese.learning import Motions
 
+        check_apart([source], out)
         motions = Motions.read(source, **as_read(**reading))
         motions.write(out)
         console.print(f"{out}: {description(motions)}")
+        tell_findings(console, motions.examined)
 
 
 @with_recording_options("resample", "trim", "nan", "unit", "range", "margin")

@@ -129,7 +129,13 @@ class Motions:
             ranges=recording.ranges,
             names=[e.name for e in recording.episodes],
         )
-        return replace(motions, examined=recording.findings, held_out=recording.held_out)
+        channels = [replace(c, binary=recording.binary.get(c.name)) for c in motions.channels]
+        return replace(
+            motions,
+            channels=Channels(channels),
+            examined=recording.findings,
+            held_out=recording.held_out,
+        )
 
     def write(self, path: str | Path, format: str | None = None) -> None:
         """Write the motions without their weights, whole or not at all.
@@ -147,7 +153,10 @@ class Motions:
         ranges = {c.name: (c.low, c.high) for c in self.channels}
         rows = zip(self.names, self.values, self.observed, strict=True)
         kept = tuple(Episode(name, None, value, mask) for name, value, mask in rows)
-        recording = Recording(Path(path), names, units, ranges, self.rate_hz, kept, names)
+        binary = {c.name: c.binary for c in self.channels if c.binary is not None}
+        recording = Recording(
+            Path(path), names, units, ranges, self.rate_hz, kept, names, binary, self.held_out
+        )
         write_recording(path, recording, format)
 
     @property
