@@ -17,6 +17,9 @@ from motionese.recordings.grid import even, resampled
 from motionese.recordings.rate import of_one_rate, rate_of
 from motionese.recordings.recording import LARGEST, Episode, Recording
 
+BLOCK = 512
+"""Rows in which a movement is sought at a time: most begin early."""
+
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
@@ -166,7 +169,11 @@ def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     if not len(values):
         return 0
     first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
-    # What was not observed may be NaN or infinite.
-    with np.errstate(invalid="ignore"):
-        moved = ((np.abs(values - first) > limits) & observed).any(axis=1)
-    return max(int(np.argmax(moved)) - 1, 0) if moved.any() else len(values) - 1
+    for start in range(0, len(values), BLOCK):
+        rows = slice(start, start + BLOCK)
+        # What was not observed may be NaN or infinite.
+        with np.errstate(invalid="ignore"):
+            moved = ((np.abs(values[rows] - first) > limits) & observed[rows]).any(axis=1)
+        if moved.any():
+            return max(start + int(np.argmax(moved)) - 1, 0)
+    return len(values) - 1

@@ -6,17 +6,19 @@ from math import ceil
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from numpy import ndarray
 
 from motionese.errors import StorageError
-from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
+from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, as_png, as_svg
 from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
 """Panels side by side, their height [inch], and how many channels are drawn at most."""
+POINTS = 500
+"""Pieces that an episode's rows are drawn in at most, each by its lowest and highest value."""
 LARGEST = 1e100
 """Beyond it values are gaps: an axis' arithmetic overflows."""
 MANY = 8
@@ -64,9 +66,10 @@ def write_drawing(path: Path, name: str, draw: Callable[[], Figure]) -> None:
     with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
         # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
-        drawn = finished(draw(), name)
+        drawn = draw()
+        content = as_png(drawn) if path.suffix.lower() == ".png" else as_svg(drawn, name)
     try:
-        write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
+        write_whole(path, content)
     except OSError as error:
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
 
@@ -80,14 +83,14 @@ def _figure(
 ) -> Figure:
     columns = min(COLUMNS, len(channels))
     rows = ceil(len(channels) / columns)
+    few = len(paths) < MANY
     figure = Figure(figsize=(WIDTH, rows * PANEL_HEIGHT + 0.9))
     panels = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
-    few = len(paths) < MANY
     for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
         for i, motion in enumerate(paths):
-            values = motion[:, column]
+            shown, values = thinned(motion[:, column])
             panel.plot(
-                np.arange(len(motion)) / (rate_hz or 1.0),
+                shown / (rate_hz or 1.0),
                 np.where(np.abs(values) <= LARGEST, values, np.nan),
                 color=COLOURS[i % len(COLOURS)] if few else INK,
                 linewidth=1.4 if few else 0.7,
@@ -106,3 +109,21 @@ def _figure(
         figure.legend(handles, labels, loc="outside lower left", ncols=4)
     figure.suptitle(title, x=0.01, ha="left")
     return figure
+
+
+def thinned(values: Float[ndarray, " T"]) -> tuple[Int[ndarray, " K"], Float[ndarray, " K"]]:
+    """Return rows and values that look as all of them do: the extremes of every few rows.
+
+    Of rows of which any is NaN, the first that is stands for a break in the line.
+    """
+    step = len(values) // POINTS
+    if step < 2:
+        return np.arange(len(values)), values
+    whole = len(values) // step * step
+    blocks = values[:whole].reshape(-1, step)
+    with_nan = np.isnan(blocks)
+    low = np.where(with_nan, -np.inf, blocks).argmin(axis=1)
+    high = np.where(with_nan, -np.inf, blocks).argmax(axis=1)
+    rows = np.sort(np.stack([low, high], axis=1), axis=1) + np.arange(0, whole, step)[:, None]
+    rows = np.append(rows.ravel(), np.arange(whole, len(values)))
+    return rows, values[rows]
