@@ -148,7 +148,7 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     ranges, still, told = given_ranges(recording, choice), [], ""
     for column, name in enumerate(recording.channels):
         if name not in ranges:
-            seen = [e.values[e.observed[:, column], column] for e in recording.episodes]
+            seen = [_seen(e, column) for e in recording.episodes]
             try:
                 ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
             except ChannelError as error:
@@ -161,6 +161,12 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
             f"{recording.source}: {told} (--range {still[0]}=LOW:HIGH, --exclude {names}){more}"
         )
     return {name: ranges[name] for name in recording.channels}
+
+
+def _seen(episode: Episode, column: int) -> Float[ndarray, " K"]:
+    """Return what was observed of a channel."""
+    values, observed = np.ascontiguousarray(episode.values[:, column]), episode.observed[:, column]
+    return values if observed.all() else values[observed]
 
 
 def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:

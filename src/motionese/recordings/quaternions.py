@@ -40,7 +40,8 @@ def _off_unity(episodes: Sequence[Episode], rows: int | None) -> Float[ndarray, 
     """Return how far the norm of every four neighbours is from 1 at most, in the first rows."""
     off = np.full(episodes[0].values.shape[1] - 3, -np.inf)
     for episode in episodes:
-        known, values = episode.known[:rows], episode.values[:rows]
+        part = episode.part(slice(rows))
+        known, values = part.known, part.values
         squared = np.square(np.where(known, values, 0.0))
         for first in range(len(off)):
             whole = known[:, first : first + 4].all(axis=1)
