@@ -30,10 +30,11 @@ STEADY = 0.02
 def judged(recording: Recording) -> Recording:
     """Return the recording without clocks and numbers of rows among its usual channels."""
     findings = []
+    whole = all(e.observed.all() for e in recording.episodes)
     for column, name in enumerate(recording.channels):
         unit = recording.units[column]
         if name in recording.usual and unit in {"", "sec", *CLOCKS.values()}:
-            shown = _shown(recording, column)
+            shown = _shown(recording, column, whole)
             if shown:
                 what = f"{shown}, so it is not taken as a channel"
                 remedy = f"--channels {name} … takes it"
@@ -94,13 +95,10 @@ def counts_episodes(values: Float[ndarray, " T"]) -> bool:
     return len(lengths) >= FEWEST_RUNS and bool((lengths > 1).all())
 
 
-def _shown(recording: Recording, column: int) -> str:
+def _shown(recording: Recording, column: int, whole: bool) -> str:
     """Return in words what a channel is, if it is no motion; empty if it may be one."""
-    seen = [e.observed[:, column] for e in recording.episodes]
-    values = [
-        e.values[:, column] if rows.all() else e.values[rows, column]
-        for e, rows in zip(recording.episodes, seen, strict=True)
-    ]
+    seen = [slice(None) if whole else e.observed[:, column] for e in recording.episodes]
+    values = [e.values[rows, column] for e, rows in zip(recording.episodes, seen, strict=True)]
     if counts_rows(values):
         return "rises by one from row to row"
     if unit := since_1970(values):

@@ -17,7 +17,11 @@ from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
 """Panels side by side, their height [inch], and how many channels are drawn at most."""
-POINTS = 500
+LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.15, 0.65, 0.55
+"""Around the panels [inch]: numbers, nothing, the titles, and the axis of time."""
+LEGEND, LEGEND_COLUMNS = 0.25, 4
+"""Height of a line of names [inch], and how many stand in one."""
+POINTS = 300
 """Pieces that an episode's rows are drawn in at most, each by its lowest and highest value."""
 LARGEST = 1e100
 """Beyond it values are gaps: an axis' arithmetic overflows."""
@@ -84,8 +88,25 @@ def _figure(
     columns = min(COLUMNS, len(channels))
     rows = ceil(len(channels) / columns)
     few = len(paths) < MANY
-    figure = Figure(figsize=(WIDTH, rows * PANEL_HEIGHT + 0.9))
-    panels = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
+    legend = LEGEND * ceil(len(paths) / LEGEND_COLUMNS) if few and len(paths) > 1 else 0.0
+    height = rows * PANEL_HEIGHT + TOP + BOTTOM + legend
+    # Panels that all hold the same need no layout that measures every text, which is most of the
+    # time that a figure takes.
+    figure = Figure(figsize=(WIDTH, height), layout="none")
+    panels = figure.subplots(
+        rows,
+        columns,
+        sharex=True,
+        squeeze=False,
+        gridspec_kw={
+            "left": LEFT / WIDTH,
+            "right": 1 - RIGHT / WIDTH,
+            "top": 1 - TOP / height,
+            "bottom": (BOTTOM + legend) / height,
+            "wspace": 0.25,
+            "hspace": 0.45,
+        },
+    ).ravel()
     for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
         for i, motion in enumerate(paths):
             shown, values = thinned(motion[:, column])
@@ -106,8 +127,8 @@ def _figure(
         panel.tick_params(labelbottom=True)
     if few and len(paths) > 1:
         handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower left", ncols=4)
-    figure.suptitle(title, x=0.01, ha="left")
+        figure.legend(handles, labels, loc="lower left", ncols=LEGEND_COLUMNS)
+    figure.suptitle(title, x=0.01, y=1 - 0.1 / height, ha="left", va="top")
     return figure
 
 

@@ -105,8 +105,8 @@ def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Bool[ndarra
 
     `ValueError` where they are not as many in every row, or no numbers.
     """
-    # A null at the end of every row shows whether all rows are as wide.
-    text = b"[" + lines.replace(b"\n", b",null,") + b"]"
+    # A text between two rows shows whether all rows are as wide: it is no number elsewhere.
+    text = b"[" + lines.replace(b"\n", b',"",') + b"]"
     whole = b"null" not in lines
     try:
         found = from_json(text)
@@ -114,10 +114,11 @@ def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Bool[ndarra
         whole = False
         text = NAN.sub(b"NaN", INFINITE.sub(b"Infinity", EMPTY.sub(b"null", text)))
         found = from_json(text)
-    ends, breaks = slice(width, None, width + 1), lines.count(b"\n")
-    if len(found) != (breaks + 1) * (width + 1) - 1 or found[ends].count(None) != breaks:
+    between = slice(width, None, width + 1)
+    if (len(found) + 1) % (width + 1) or {*found[between]} - {""}:
         raise ValueError("rows of another width")
-    del found[ends]
-    if whole:
-        return np.fromiter(found, np.float64, len(found)), np.ones(len(found), dtype=bool)
-    return np.array(found, dtype=np.float64), np.array([cell is not None for cell in found])
+    del found[between]
+    seen = np.ones(len(found), dtype=bool)
+    if not whole:
+        seen[:] = [cell is not None for cell in found]
+    return np.fromiter(found, np.float64, len(found)), seen
