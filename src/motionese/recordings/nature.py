@@ -27,6 +27,7 @@ STEADY = 0.02
 """Share by which a step of an even clock may be off."""
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def judged(recording: Recording) -> Recording:
     """Return the recording without clocks and numbers of rows among its usual channels."""
     findings = []
@@ -126,7 +127,6 @@ def _rises(values: Float[ndarray, " _"]) -> bool:
     return bool((np.diff(values) >= 0).all() and (len(values) < 2 or values[-1] > values[0]))
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def _follows(column: Column, times: Column, unit: float) -> bool:
     """Tell whether a column, in this unit, is never off `times` by more than a row."""
     for values, here in zip(column, times, strict=True):

@@ -48,14 +48,14 @@ def largest_steps(recording: Recording) -> Float[ndarray, " D"]:
     result = np.zeros(len(recording.channels))
     for episode in recording.episodes:
         for start in range(0, len(episode.values) - 1, BLOCK):
-            part = episode.part(slice(start, start + BLOCK + 1))
-            known = part.known
-            if not known.all():
+            rows = slice(start, start + BLOCK + 1)
+            values = episode.values[rows]
+            if not (episode.observed[rows] & (np.abs(values) <= LARGEST)).all():
                 columns = zip(episode.values.T, episode.known.T, strict=True)
                 steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
                 result = np.maximum(result, steps)
                 break
-            result = np.maximum(result, np.abs(np.diff(part.values, axis=0)).max(axis=0))
+            result = np.maximum(result, np.abs(np.diff(values, axis=0)).max(axis=0))
     return result
 
 

@@ -11,6 +11,8 @@ import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from motionese.errors import RecordingError
 from motionese.recordings.finding import merged
 from motionese.recordings.formats import csv_episodes, csv_times
@@ -79,6 +81,8 @@ def write(path: Path, recording: Recording) -> None:
     write_file(path, text.getvalue().encode())
 
 
+# What is absurd is told of further on, not here: differences of huge values may overflow.
+@np.errstate(over="ignore", invalid="ignore")
 def _recording(
     path: Path, tables: Sequence[Table], episode: str | None, time: str | None
 ) -> Recording:

@@ -7,7 +7,7 @@ is several times faster than Python's `csv` and `float`. What JSON and a table d
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import BinaryIO
+from io import BufferedIOBase
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -22,7 +22,9 @@ NAN, INFINITE = re.compile(rb"(?i)\bnan\b"), re.compile(rb"(?i)\binf(inity)?\b")
 Body = tuple[Float[ndarray, "T K"], Bool[ndarray, "T K"], tuple[tuple[str, ...], ...]]
 
 
-def read_body(file: BinaryIO, separator: str, width: int, textual: Sequence[int]) -> Body | None:
+def read_body(
+    file: BufferedIOBase, separator: str, width: int, textual: Sequence[int]
+) -> Body | None:
     """Return the numbers of a table's rows, what was observed of them, and columns of text.
 
     Args:
@@ -55,7 +57,7 @@ def read_body(file: BinaryIO, separator: str, width: int, textual: Sequence[int]
     return (values[:rows], seen[:rows], tuple(tuple(w[:rows]) for w in words)) if rows else None
 
 
-def _chunks(file: BinaryIO) -> Iterator[bytes]:
+def _chunks(file: BufferedIOBase) -> Iterator[bytes]:
     """Yield whole lines, some at a time, without the last line break."""
     rest = b""
     while read := file.read(CHUNK):

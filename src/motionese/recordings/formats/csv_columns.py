@@ -130,7 +130,8 @@ def _worded(tables: Sequence[Table], column: int, named: bool) -> tuple[Channel 
     words = sorted(shown, key=lambda word: (_state(word), word))
     apart = sum(len(runs(table)) for table in cells) == len(words)
     names = f"--episode {shlex.quote(name)}, if it names the episodes"
-    remedy = names if apart and len(words) > 1 and not named else ""
+    states = all(_state(word) < len(STATES) for word in words)
+    remedy = names if apart and len(words) > 1 and not (named or states) else ""
     if len(words) == 2:
         number = {word: float(i) for i, word in enumerate(words)} | {"": np.nan}
         values = [np.array([number[cell.casefold()] for cell in table]) for table in cells]

@@ -94,7 +94,8 @@ def _at(lines: Sequence[str], start: int, above: tuple[str, ...]) -> Layout:
         header = named
     elif is_header(rows[0]):
         header, below = tuple(rows[0]), 1
-    units = units_of(rows[1]) if below and len(rows) > 2 and is_row(rows[2]) else None
+    alike = below and len(rows) > 2 and len(rows[1]) == len(rows[0]) and is_row(rows[2])
+    units = units_of(rows[1]) if alike else None
     below += units is not None
     body, width = rows[below:], len(rows[0])
     fitting = sum(len(row) >= width and not any(row[width:]) for row in body)

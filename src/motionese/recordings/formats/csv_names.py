@@ -49,7 +49,7 @@ def units_of(cells: Sequence[str]) -> tuple[str, ...] | None:
     told = [cell for cell in cells if cell.casefold() not in NO_UNIT]
     bare = [re.sub(r"^[\[(](.*)[\])]$", r"\1", cell).strip() for cell in told]
     known = [unit for unit in bare if re.fullmatch(_UNIT, unit)]
-    if not known or 2 * len(known) < len(told) or any(map(is_number, bare)):
+    if not known or 2 * len(known) < len(told) or any(is_number(b.replace(",", ".")) for b in bare):
         return None
     units = dict(zip(told, bare, strict=True))
     return tuple(units.get(cell, "") for cell in cells)

@@ -18,6 +18,7 @@ from motionese.recordings.formats.csv_cells import is_number
 from motionese.recordings.formats.csv_layout import Layout, layout, rows_of
 from motionese.recordings.formats.csv_names import checked_header
 from motionese.recordings.formats.csv_text import decoded
+from motionese.recordings.formats.numbered_columns import numbered_columns
 
 HEAD = 1 << 20
 """Bytes in which a table's first rows stand."""
@@ -183,11 +184,9 @@ def _header(
     """Return the names of a table's columns, and what was found above its rows."""
     width, findings = len(found.header or found.row), []
     if found.above:
-        what = (
-            f"{len(found.above)} lines above the table are not read, "
-            f"from '{found.above[0].strip()[:40]}' to '{found.above[-1].strip()[:40]}'"
-        )
-        findings.append(Finding("left out", path, what))
+        first, more = found.above[0].strip()[:40], len(found.above) - 1
+        what = f"the line '{first}'{f' and {more} more' if more else ''} above the table"
+        findings.append(Finding("left out", path, f"{what}: words, not read"))
     if found.header:
         if columns is not None:
             raise SettingError(
@@ -195,19 +194,8 @@ def _header(
                 "--columns names those of a table without a header"
             )
         return checked_header(path, found.header), tuple(findings)
-    if columns is None:
-        numbered = tuple(f"column_{i}" for i in range(width))
-        if width:
-            what = f"has no names of columns; they are called {', '.join(numbered[:3])}, …"
-            names = ",".join("abc"[: min(width, 3)]) + ",…" * (width > 3)
-            findings.append(Finding("column", path, what, f"--columns {names} names them"))
-        return numbered, tuple(findings)
-    if len(columns) != width:
-        raise SettingError(
-            f"{path}: has {width} columns, --columns gives {len(columns)} names: "
-            f"{', '.join(columns)}"
-        )
-    return checked_header(path, columns), tuple(findings)
+    names, told = numbered_columns(path, width, columns)
+    return checked_header(path, names), (*findings, *told)
 
 
 def _first_lines(text: str) -> list[str]:

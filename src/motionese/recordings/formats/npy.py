@@ -13,9 +13,10 @@ import numpy as np
 from jaxtyping import Float, Shaped
 from numpy import ndarray
 
-from motionese.errors import RecordingError, SettingError
+from motionese.errors import RecordingError
 from motionese.recordings.finding import Finding, merged
 from motionese.recordings.formats.conventions import UNREADABLE, WIDEST, natural, why
+from motionese.recordings.formats.numbered_columns import numbered_columns
 from motionese.recordings.formats.writing import check_even_and_whole, write_file
 from motionese.recordings.recording import Episode, Recording
 
@@ -66,27 +67,6 @@ def write(path: Path, recording: Recording) -> None:
     content = BytesIO()
     np.save(content, padded)
     write_file(path, content.getvalue())
-
-
-def numbered_columns(
-    path: Path, width: int, columns: Sequence[str] | None
-) -> tuple[tuple[str, ...], list[Finding]]:
-    """Return names of channels that have none, and what is told of them.
-
-    Raises:
-        SettingError: Names were given, but not as many.
-    """
-    if columns is None:
-        names = tuple(f"column_{i}" for i in range(width))
-        what = f"has no names of columns; they are called {names[0]} to {names[-1]}"
-        example = ",".join("abc"[:width]) + ",…" * (width > 3)
-        return names, [Finding("column", path, what, f"--columns {example} names them")]
-    if len(columns) != width:
-        raise SettingError(
-            f"{path}: has {width} columns, --columns gives {len(columns)} names: "
-            f"{', '.join(columns)}"
-        )
-    return tuple(columns), []
 
 
 def without_padding(

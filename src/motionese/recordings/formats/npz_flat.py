@@ -18,7 +18,8 @@ from numpy import ndarray
 from motionese.errors import RecordingError
 from motionese.recordings.finding import Finding, merged
 from motionese.recordings.formats.conventions import WIDEST, numbered
-from motionese.recordings.formats.npy import NUMBERS, numbered_columns, without_padding
+from motionese.recordings.formats.npy import NUMBERS, without_padding
+from motionese.recordings.formats.numbered_columns import numbered_columns
 from motionese.recordings.nature import runs
 from motionese.recordings.recording import Episode, Recording
 
@@ -30,6 +31,8 @@ INDICES = ("episode_index", "episode_id", "episode_ids", "episode", "episodes", 
 """The number of its episode in every row."""
 CUTS = (*FLAGS, *ENDS, *STARTS, *LENGTHS, *INDICES)
 TIMES, RATES = ("time", "times", "timestamp", "timestamps"), ("rate_hz", "fps", "hz")
+MOST_ROWS = 2**48
+"""More rows than any archive has."""
 ACTED = ("action", "reward", "next_")
 """What the names of arrays begin with that hold no observation of the row."""
 
@@ -112,6 +115,7 @@ def _rows(path: Path, rest: Arrays, cuts: Arrays) -> tuple[dict[str, Rows], Int[
         narrow = {k: a.reshape(count * length, -1) for k, a in stacked.items()}
         ends = np.arange(1, count + 1) * length
         return {k: a for k, a in narrow.items() if a.shape[1] <= WIDEST}, ends
+    cuts = {key: _whole(path, key, array) for key, array in cuts.items()}
     per_row = [len(a) for key, a in cuts.items() if _last(key) in (*FLAGS, *INDICES)]
     per_row += [int(a[-1]) for key, a in cuts.items() if _last(key) in ENDS and len(a)]
     shapes = [len(a) for a in rest.values() if a.ndim == 2 and a.shape[1] <= WIDEST and a.size]
@@ -129,27 +133,33 @@ def _rows(path: Path, rest: Arrays, cuts: Arrays) -> tuple[dict[str, Rows], Int[
     return rows, _ends(path, cuts, count)
 
 
-def _ends(path: Path, cuts: Arrays, count: int) -> Int[ndarray, " E"]:
+def _whole(path: Path, key: str, array: Array) -> Int[ndarray, " _"]:
+    """Return an array that cuts as whole numbers; `RecordingError` where it holds others."""
+    flat = array.ravel().astype(np.float64)
+    if not (np.abs(flat) < MOST_ROWS).all() or (flat != np.round(flat)).any():
+        raise RecordingError(f"{path}: '{key}' tells episodes apart, but not in whole numbers")
+    return flat.astype(np.int64)
+
+
+def _ends(path: Path, cuts: Mapping[str, Int[ndarray, " _"]], count: int) -> Int[ndarray, " E"]:
     """Return the rows after which episodes end."""
     ends: set[int] = set()
-    for key, array in cuts.items():
-        kind, flat = _last(key), array.ravel()
-        flagged = len(flat) == count and set(np.unique(flat[: 2 * count]).tolist()) <= {0, 1}
+    for key, cut in cuts.items():
+        kind = _last(key)
         if kind in FLAGS:
-            here = np.flatnonzero(flat) + 1
+            here = np.flatnonzero(cut) + 1
         elif kind in STARTS:
-            here = np.flatnonzero(flat) if flagged else flat
+            here = np.flatnonzero(cut) if len(cut) == count and set(cut.tolist()) <= {0, 1} else cut
         elif kind in INDICES:
-            here = runs(flat) if len(flat) == count else flat
+            here = runs(cut)
         else:
-            here = np.cumsum(flat) if kind in LENGTHS else flat
-        whole = here.dtype.kind in "iu" or bool((here == np.round(here)).all())
-        if not whole or (len(here) and (here.min() < 0 or here.max() > count)):
+            here = np.cumsum(cut) if kind in LENGTHS else cut
+        if len(here) and (here.min() < 0 or here.max() > count):
             raise RecordingError(
                 f"{path}: '{key}' cuts at rows that are not there, of {count} rows"
             )
-        ends |= set(here.astype(int).tolist())
-    return np.array(sorted((ends | {count}) - {0}), dtype=int)
+        ends |= set(here.tolist())
+    return np.array(sorted((ends | {count}) - {0}), dtype=np.int64)
 
 
 def _episodes(
