@@ -176,6 +176,16 @@ def matching(
         # A name first: those of messages hold brackets, as in "/joints.position[0]".
         fits = [pattern] if pattern in names else [n for n in names if fnmatchcase(n, pattern)]
         if not fits:
-            raise ChannelError(f"{recording.source}: {unknown('channel', pattern, names)}")
+            raise ChannelError(_no_channel(recording, pattern, names))
         found |= dict.fromkeys(fits)
     return tuple(found)
+
+
+def _no_channel(recording: Recording, pattern: str, names: tuple[str, ...]) -> str:
+    """Return the sentence for what is no channel: why it is none, where reading found that."""
+    for finding in recording.findings:
+        if finding.channel not in ("", *recording.channels) and fnmatchcase(
+            finding.channel, pattern
+        ):
+            return f"{finding.sentence}; there are: {', '.join(names)}"
+    return f"{recording.source}: {unknown('channel', pattern, names)}"

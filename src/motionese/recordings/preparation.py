@@ -17,6 +17,9 @@ from motionese.recordings.grid import even, resampled
 from motionese.recordings.rate import of_one_rate, rate_of
 from motionese.recordings.recording import LARGEST, Episode, Recording
 
+BLOCK = 512
+"""Rows in which a movement is sought at a time: most begin early."""
+
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
@@ -145,7 +148,7 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     ranges, still, told = given_ranges(recording, choice), [], ""
     for column, name in enumerate(recording.channels):
         if name not in ranges:
-            seen = [e.values[e.observed[:, column], column] for e in recording.episodes]
+            seen = [_seen(e, column) for e in recording.episodes]
             try:
                 ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
             except ChannelError as error:
@@ -160,13 +163,23 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     return {name: ranges[name] for name in recording.channels}
 
 
+def _seen(episode: Episode, column: int) -> Float[ndarray, " K"]:
+    """Return what was observed of a channel."""
+    values, observed = np.ascontiguousarray(episode.values[:, column]), episode.observed[:, column]
+    return values if observed.all() else values[observed]
+
+
 def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     """Return the rows before the last one that is still at its channels' first values."""
     values, observed = episode.values, episode.observed
     if not len(values):
         return 0
     first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
-    # What was not observed may be NaN or infinite.
-    with np.errstate(invalid="ignore"):
-        moved = ((np.abs(values - first) > limits) & observed).any(axis=1)
-    return max(int(np.argmax(moved)) - 1, 0) if moved.any() else len(values) - 1
+    for start in range(0, len(values), BLOCK):
+        rows = slice(start, start + BLOCK)
+        # What was not observed may be NaN or infinite.
+        with np.errstate(invalid="ignore"):
+            moved = ((np.abs(values[rows] - first) > limits) & observed[rows]).any(axis=1)
+        if moved.any():
+            return max(start + int(np.argmax(moved)) - 1, 0)
+    return len(values) - 1

@@ -8,7 +8,8 @@ from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
-from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npz
+from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npy, npz
+from motionese.recordings.nature import judged
 from motionese.recordings.recording import Recording
 
 
@@ -25,6 +26,8 @@ class Format:
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
         options: Which of `OPTIONS` its `read` takes.
+        perhaps: Patterns of a file that a folder in this format holds if it is in no other.
+        chosen: Whether its channels were chosen when it was written.
     """
 
     what: str
@@ -32,6 +35,8 @@ class Format:
     suffixes: tuple[str, ...] = ()
     inside: tuple[str, ...] = ()
     options: tuple[str, ...] = ()
+    perhaps: tuple[str, ...] = ()
+    chosen: bool = False
 
 
 OPTIONS = {
@@ -41,18 +46,23 @@ OPTIONS = {
 }
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
-TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
 HDF5 = Format(
     f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE
 )
 FORMATS = {
-    "npz": Format("motionese's own .npz", npz, (".npz",)),
+    "npz": Format(
+        "motionese's own .npz or another", npz, (".npz",), options=("columns",), chosen=True
+    ),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "hdf5": HDF5,
     "robomimic": HDF5,
     "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
-    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, (*OPTIONS,)),
+    "csv": Format(
+        *(".csv or a folder of them", csv, csv.SUFFIXES, csv.patterns(csv.SURE), (*OPTIONS,)),
+        perhaps=csv.patterns(csv.SUFFIXES),
+    ),
+    "npy": Format(".npy or a folder of them", npy, (".npy",), ("*.npy",), ("columns",)),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")
@@ -88,7 +98,8 @@ def read(path: str | Path, format: str | None = None, **options: Any) -> Recordi
             raise SettingError(
                 f"{path}: {option} is {OPTIONS[option]}, of {takes} alone; this is {name}"
             )
-    return _checked(FORMATS[name].module.read(path, **given))
+    recording = _checked(FORMATS[name].module.read(path, **given))
+    return recording if FORMATS[name].chosen else judged(recording)
 
 
 def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
@@ -116,7 +127,11 @@ def _named(format: str | None) -> str | None:
 
 
 def _found(path: Path) -> str:
-    holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
+    rules = [
+        *((n, f.inside) for n, f in FORMATS.items()),
+        *((n, f.perhaps) for n, f in FORMATS.items()),
+    ]
+    holding = (n for n, patterns in rules if any(any(path.glob(p)) for p in patterns))
     name = next(holding, None) if path.is_dir() else _by_suffix(path)
     if name is None:
         known = ", ".join(dict.fromkeys(f.what for f in FORMATS.values()))

@@ -10,6 +10,9 @@ from numpy import ndarray
 
 from motionese.recordings.recording import LARGEST, Recording
 
+BLOCK = 512
+"""Rows that are looked at together, few enough to stay near the processor."""
+
 
 class Series(NamedTuple):
     """One channel in one episode, where it was observed and is finite.
@@ -29,10 +32,14 @@ def series_of(recording: Recording, column: int) -> list[Series]:
     """Return a channel's series in every episode."""
     series = []
     for episode in recording.episodes:
-        values = episode.values[:, column]
-        rows = np.flatnonzero(episode.observed[:, column] & (np.abs(values) <= LARGEST))
-        times = rows.astype(np.float64) if episode.times is None else episode.times[rows]
-        series.append(Series(rows, values[rows], times))
+        # A column that lies together is gone through several times as fast.
+        values = np.ascontiguousarray(episode.values[:, column])
+        known = episode.observed[:, column] & (np.abs(values) <= LARGEST)
+        rows = np.flatnonzero(known)
+        times = rows.astype(np.float64) if episode.times is None else episode.times
+        if len(rows) < len(values):
+            values, times = values[rows], times if episode.times is None else times[rows]
+        series.append(Series(rows, values, times))
     return series
 
 
@@ -40,13 +47,15 @@ def largest_steps(recording: Recording) -> Float[ndarray, " D"]:
     """Return every channel's largest step between values that follow each other [its unit]."""
     result = np.zeros(len(recording.channels))
     for episode in recording.episodes:
-        known = episode.known
-        if known.all():
-            steps = np.abs(np.diff(episode.values, axis=0)).max(axis=0, initial=0)
-        else:
-            columns = zip(episode.values.T, known.T, strict=True)
-            steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
-        result = np.maximum(result, steps)
+        for start in range(0, len(episode.values) - 1, BLOCK):
+            rows = slice(start, start + BLOCK + 1)
+            values = episode.values[rows]
+            if not (episode.observed[rows] & (np.abs(values) <= LARGEST)).all():
+                columns = zip(episode.values.T, episode.known.T, strict=True)
+                steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
+                result = np.maximum(result, steps)
+                break
+            result = np.maximum(result, np.abs(np.diff(values, axis=0)).max(axis=0))
     return result
 
 
