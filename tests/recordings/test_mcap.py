@@ -12,7 +12,7 @@ from mcap.writer import CompressionType, Writer
 
 from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
-from motionese.recordings.formats.mcap import numbers
+from motionese.recordings.formats.json_messages import numbers
 
 START = 1_700_000_000_000_000_000
 """A log time of today [ns], which a float does not hold exactly."""
@@ -163,8 +163,8 @@ def test_numbers_are_found_where_they_stand(message, expected):
 
 
 def test_messages_in_other_encodings_are_named(tmp_path):
-    path = tape(tmp_path / "ros.mcap", [("/joints", 0, b"\x00\x01")], encoding="cdr")
-    with pytest.raises(RecordingError, match=r"ros\.mcap: no numbers in .* 'json'.* in it: cdr"):
+    path = tape(tmp_path / "a.mcap", [("/joints", 0, b"\x00\x01")], encoding="protobuf")
+    with pytest.raises(RecordingError, match=r"a\.mcap: no numbers of .*: /joints \(any\)"):
         read(path)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
-from motionese.recordings.formats import csv, eipl, lerobot, mcap, npz, robomimic
+from motionese.recordings.formats import csv, eipl, lerobot, mcap, npz, robomimic, rosbag
 from motionese.recordings.recording import Recording
 
 
@@ -38,17 +38,24 @@ OPTIONS = {
     "episode": "the column that names the episode",
     "time": "the column that holds the time",
     "columns": "the names of columns without a header",
+    "topics": "the topics that are read",
+    "pause": "the silence that cuts a log into takes",
+    "marker": "the topic that marks the takes of a log",
 }
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
 TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
+BAGS = (".bag", ".db3", ".zstd", ".active")
+BAGS_INSIDE = ("metadata.yaml", "*/metadata.yaml", "*.bag", "*.db3", "*.zstd", "*.active")
+OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 FORMATS = {
     "npz": Format("motionese's own .npz", npz, (".npz",)),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
-    "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
-    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, (*OPTIONS,)),
+    "rosbag": Format("a ROS bag or a folder of them", rosbag, BAGS, BAGS_INSIDE, OF_LOGS),
+    "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
+    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, OF_TABLES),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")
