@@ -91,11 +91,11 @@ def survey(recording: Recording) -> Survey:
     """Return the numbers of a recording as it was read, before anything is refused or mended."""
     episodes = recording.episodes
     values, observed, seen, steps = (
-        np.concatenate([of(e) for e in episodes])
+        np.concatenate([of(e) for e in episodes]) if len(episodes) > 1 else of(episodes[0])
         for of in (attrgetter("values"), attrgetter("observed"), _seen, _steps)
     )
-    low = np.where(seen, values, np.inf).min(axis=0, initial=np.inf)
-    high = np.where(seen, values, -np.inf).max(axis=0, initial=-np.inf)
+    low = values.min(axis=0, initial=np.inf, where=seen)
+    high = values.max(axis=0, initial=-np.inf, where=seen)
     widths = np.where(low <= high, high, 0.0) - np.where(low <= high, low, 0.0)
     usual = [i for i, c in enumerate(recording.channels) if c in recording.usual]
     times = [e.times for e in episodes if e.times is not None]
@@ -169,7 +169,8 @@ def _seen(episode: Episode) -> Bool[ndarray, "T D"]:
 
 def _steps(episode: Episode) -> Float[ndarray, "_ D"]:
     """Return how far every value is from that of the row before; NaN where one is missing."""
-    return np.asarray(np.abs(np.diff(np.where(_seen(episode), episode.values, np.nan), axis=0)))
+    steps = np.diff(np.where(_seen(episode), episode.values, np.nan), axis=0)
+    return np.asarray(np.abs(steps, out=steps))
 
 
 def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | None:
