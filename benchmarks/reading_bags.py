@@ -92,10 +92,10 @@ def library(path: Path) -> int:
     return count
 
 
-def seconds(work: Callable[[], object]) -> float:
-    """Return the time of the processor that something takes [s]."""
+def seconds(work: Callable[[Path], object], path: Path) -> float:
+    """Return the time of the processor that some work on a bag takes [s]."""
     before = process_time()
-    work()
+    work(path)
     return process_time() - before
 
 
@@ -113,14 +113,14 @@ def main() -> None:
     """Write the bags, read them in turns, and print a table."""
     megabytes = float(sys.argv[1]) if len(sys.argv) > 1 else MEGABYTES
     table = Table(title=f"Bags of {megabytes:g} MB: seconds of the processor, medians of {TURNS}")
-    headings = ("", "library", "read", "inspect", "×", f"≤ {TIMES:g}", "MB", "× kept", f"≤ {MEMORY:g}")
-    for heading in headings:
+    times = ("library", "read", "inspect", "×", f"≤ {TIMES:g}")
+    for heading in ("", *times, "MB", "× kept", f"≤ {MEMORY:g}"):
         table.add_column(heading, justify="right" if table.columns else "left")
     for kind in KINDS:
         with tempfile.TemporaryDirectory() as folder:
             path = write_bag(Path(folder), kind, megabytes)
             ways = (library, read, lambda p: survey(read(p)))
-            each = [[seconds(lambda w=way: w(path)) for way in ways] for _ in range(TURNS)]
+            each = [[seconds(way, path) for way in ways] for _ in range(TURNS)]
             alone, reading, inspecting = np.median(each, axis=0)
             most, kept = memory(path)
         ratio = float(np.median([turn[2] / turn[0] for turn in each]))

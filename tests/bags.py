@@ -25,7 +25,7 @@ def define(**types):
 
 
 def made(version, kind, **fields):
-    """Return a message with these fields, by path (pose__x for pose.x), all others zero or empty."""
+    """Return a message with these fields, by path (pose__x for pose.x); others are 0 or empty."""
     store = STORES[version]
     message = _empty(store, _full(kind))
     for path, value in fields.items():

@@ -30,15 +30,20 @@ def messages(file: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
         with TemporaryDirectory() as folder:
             whole = Path(folder) / file.stem
             _decompress(file, whole)
-            yield from messages(whole, find)
-        return
-    is_mcap = file.suffix.lower() == ".mcap"
-    for track, logged, data in (mcap_records.messages if is_mcap else _stored)(file, find):
+            yield from _unpacked(whole, file, find)
+    else:
+        yield from _unpacked(file, file, find)
+
+
+def _unpacked(file: Path, source: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
+    """Yield the messages of a file that is none of compressed data; its messages may be."""
+    read = mcap_records.messages if file.suffix.lower() == ".mcap" else _stored
+    for track, logged, data in read(file, source, find):
         compressed = data[:4] == _BEGINNING
-        yield track, logged, _decompressed(file, track, data) if compressed else data
+        yield track, logged, _decompressed(source, track, data) if compressed else data
 
 
-def _stored(file: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
+def _stored(file: Path, source: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
     """Yield what the library for bags reads, from a .bag or .db3."""
     kind = file.suffix.lower()
     version = 1 if kind == ".bag" else 2
@@ -65,7 +70,7 @@ def _stored(file: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
     # What the library raises depends on which byte is damaged.
     except Exception as error:
         raise RecordingError(
-            f"{file}: not a bag of ROS {version}, not closed by its recorder, or damaged after "
+            f"{source}: not a bag of ROS {version}, not closed by its recorder, or damaged after "
             f"{count} messages ({why(error)}); {_REINDEX[kind]} saves what is whole"
         ) from error
 

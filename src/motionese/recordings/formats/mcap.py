@@ -5,6 +5,7 @@ are left out. A topic that we wrote carries in its MCAP channel's metadata what 
 (names, units, rate, the episode's name); its channels keep their plain names.
 """
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -22,7 +23,7 @@ __all__ = ["read", "write"]
 
 def read(
     path: Path,
-    topics: tuple[str, ...] | None = None,
+    topics: Sequence[str] | None = None,
     pause: float | None = None,
     marker: str | None = None,
 ) -> Recording:
@@ -33,7 +34,7 @@ def read(
 
     Args:
         path: The file or folder.
-        topics: Patterns of the topics to read; all that tell a motion where left out.
+        topics: Patterns of the topics to read, or one; all that tell a motion where left out.
         pause: A silence longer than this [s] cuts an episode in two.
         marker: The topic that marks takes, as `Mark` tells.
     """
@@ -41,6 +42,6 @@ def read(
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda f: natural(f.name))
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
-    logs = [choice.read(file, file.stem, partial(messages, file)) for file in files]
+    logs = [choice.read(file, file.stem, partial(messages, file, file)) for file in files]
     choice.check(path, logs)
     return recording_of(path, logs, cuts)

@@ -23,8 +23,10 @@ _MESSAGE = Struct("<HIQQ")
 _CRC = Struct("<I")
 
 
-def messages(file: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
+def messages(file: Path, source: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
     """Yield the messages of the topics that `find` wants, with their log times [ns], in order.
+
+    Errors name `source`, from which the file may have been unpacked.
 
     Raises:
         RecordingError: A file that is no MCAP file, is cut short, or damaged.
@@ -48,7 +50,7 @@ def messages(file: Path, find: Find) -> Iterator[tuple[Track, int, bytes]]:
     # What the parser and its decompressors raise depends on which byte is damaged.
     except Exception as error:
         raise RecordingError(
-            f"{file}: not an MCAP file, cut short, or damaged after {count} messages "
+            f"{source}: not an MCAP file, cut short, or damaged after {count} messages "
             f"({why(error)}); `mcap recover` saves what is whole"
         ) from error
 

@@ -4,7 +4,7 @@ One bag is one episode, unless its silences or a topic cut it into takes; a fold
 recording. Channels are named as those of MCAP are.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path, PurePosixPath
 
@@ -37,7 +37,7 @@ class _Bag(BaseModel):
 
 def read(
     path: Path,
-    topics: tuple[str, ...] | None = None,
+    topics: Sequence[str] | None = None,
     pause: float | None = None,
     marker: str | None = None,
 ) -> Recording:
@@ -48,7 +48,7 @@ def read(
 
     Args:
         path: The file or folder.
-        topics: Patterns of the topics to read; all that tell a motion where left out.
+        topics: Patterns of the topics to read, or one; all that tell a motion where left out.
         pause: A silence longer than this [s] cuts an episode in two.
         marker: The topic that marks takes, as `Mark` tells.
     """

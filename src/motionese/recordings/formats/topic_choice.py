@@ -19,6 +19,7 @@ class TopicChoice:
     """
 
     def __init__(self, patterns: Sequence[str] | None, marker: str | None) -> None:
+        patterns = (patterns,) if isinstance(patterns, str) else patterns
         self.patterns = None if patterns is None else tuple(patterns)
         self.marker = marker
         self.there: dict[str, str] = {}
