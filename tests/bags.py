@@ -9,7 +9,10 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 START = 1_700_000_000_000_000_000
 """A time of today [ns]."""
-KINDS = ("ros1", "ros1 bz2", "db3", "mcap", "db3 file", "db3 message", "mcap file", "mcap storage")
+KINDS = (
+    *("ros1", "ros1 bz2", "db3", "db3 file", "db3 message"),
+    *("mcap", "mcap file", "mcap message", "mcap storage"),
+)
 """Of bags: version or storage, and what is compressed."""
 STORES = {
     version: get_typestore(store)

@@ -4,6 +4,8 @@ import re
 import shutil
 import sqlite3
 import sys
+import tracemalloc
+from time import process_time
 
 import bags
 import mcap.writer
@@ -12,6 +14,7 @@ import pytest
 from bags import KINDS, joints, made, write
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rosbags.highlevel import AnyReader
 
 from motionese import Motions
 from motionese.errors import MissingPackageError, MotioneseError, RecordingError, SettingError
@@ -20,6 +23,7 @@ from motionese.recordings import write as write_recording
 
 bags.define(
     Grip="std_msgs/Header header\nfloat32 width\nbool closed\nstring state\nfloat64[2] force",
+    Mixed="float64 x\nfloat32[] cloud",
 )
 JOINTS = "sensor_msgs/JointState"
 
@@ -226,6 +230,18 @@ def test_transforms_are_read_where_they_are_asked_for_by_their_frames(tmp_path):
     found = read(path, topics=["tf"])
     x = found.channels.index("/tf.transforms.eye.transform.translation.x")
     assert (found.units[x], found.episodes[0].values[:, x].tolist()) == ("m", [1, 0])
+
+
+def test_lists_that_are_too_wide_are_left_out_and_told(tmp_path):
+    wide = [("/all", "std_msgs/Int32MultiArray", 0, {"data": range(600)})]
+    found, _ = one(tmp_path, [*states(), *wide])
+    assert "are left out: /all (std_msgs/msg/Int32MultiArray)" in found.findings[0].sentence
+
+    shutil.rmtree(tmp_path / "bag")
+    messages = [("/mixed", "my_msgs/Mixed", i, {"x": i, "cloud": range(600 + i)}) for i in range(3)]
+    found, by = one(tmp_path, messages)
+    assert by["/mixed.x"][0].tolist() == [0, 1, 2]
+    assert found.findings[0].sentence.endswith("of more than 512 numbers are left out: .cloud")
 
 
 # --- types ---
@@ -493,3 +509,51 @@ def test_a_damaged_bag_gives_a_recording_or_one_sentence(whole, tmp_path, kind, 
 @given(data=st.data())
 def test_many_damaged_bags(whole, tmp_path, kind, data):
     tried_when_damaged(whole, tmp_path, kind, data)
+
+
+# --- large bags ---
+
+
+def large(megabytes):
+    """JointStates at 500 Hz, and pictures that make up most of the bytes."""
+    names, pictures = tuple("abcdefg"), {}
+    for i, message in enumerate(states(int(megabytes * 50), 500.0, names, velocity=np.zeros(7))):
+        yield message
+        if i % 16 == 0:
+            yield (
+                *("/eye", "sensor_msgs/Image", i / 500.0),
+                lambda v: pictures.setdefault(v, made(v, "sensor_msgs/Image", data=[7] * 320_000)),
+            )
+
+
+def passed_over(path):
+    """Pass over all messages and decode those that are used, with the library alone."""
+    with AnyReader([path]) as reader:
+        for connection, _, data in reader.messages():
+            if "JointState" in connection.msgtype:
+                reader.deserialize(data, connection.msgtype)
+
+
+def seconds(work, path):
+    before = process_time()
+    work(path)
+    return process_time() - before
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["ros1", "db3", "mcap"])
+def test_a_large_bag_takes_little_more_than_its_library_does(tmp_path, kind):
+    path = write(tmp_path / "bag", kind, large(1000))
+    turns = [
+        (seconds(passed_over, path), seconds(lambda p: survey(read(p)), path)) for _ in range(3)
+    ]
+    assert min(ours / library for library, ours in turns) <= 2
+
+    tracemalloc.start()
+    found = read(path)
+    survey(found)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    # A chunk of messages is held beside what is kept.
+    kept = sum(e.values.nbytes + e.observed.nbytes for e in found.episodes)
+    assert most <= 4 * kept + 4e6

@@ -35,6 +35,7 @@ class JsonMessages:
 
     further: tuple[tuple[int, list[float]], ...] = ()
     shortened = 0
+    wide: tuple[str, ...] = ()
 
     def value(self, data: bytes) -> Any:
         """Return what a message says."""

@@ -10,8 +10,8 @@ from functools import partial
 from pathlib import Path
 
 from motionese.errors import RecordingError
+from motionese.recordings.formats.bag_files import messages
 from motionese.recordings.formats.conventions import natural
-from motionese.recordings.formats.mcap_records import messages
 from motionese.recordings.formats.mcap_writing import write
 from motionese.recordings.formats.message_log import recording_of
 from motionese.recordings.formats.takes import Cuts
@@ -42,6 +42,6 @@ def read(
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda f: natural(f.name))
     if not files:
         raise RecordingError(f"{path}: holds no .mcap files")
-    logs = [choice.read(file, file.stem, partial(messages, file, file)) for file in files]
+    logs = [choice.read(file, file.stem, partial(messages, file)) for file in files]
     choice.check(path, logs)
     return recording_of(path, logs, cuts)

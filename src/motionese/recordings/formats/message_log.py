@@ -7,7 +7,7 @@ at which its messages were recorded.
 
 from array import array
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, runtime_checkable
@@ -17,8 +17,8 @@ from jaxtyping import Float, Int
 from numpy import ndarray
 
 from motionese.errors import RecordingError
-from motionese.recordings.finding import Finding
-from motionese.recordings.formats.conventions import times_unless_even, why
+from motionese.recordings.finding import Finding, Kind
+from motionese.recordings.formats.conventions import WIDEST, times_unless_even, why
 from motionese.recordings.formats.mcap_writing import TopicMetadata
 from motionese.recordings.formats.takes import Cuts, Mark
 from motionese.recordings.rate import rate_of_times
@@ -59,6 +59,11 @@ class Messages(Protocol):
     @property
     def shortened(self) -> int:
         """Messages of which `numbers` gave the first of several times alone."""
+        ...
+
+    @property
+    def wide(self) -> Collection[str]:
+        """Paths of lists that are left out, as they are too wide to be of a motion."""
         ...
 
     def value(self, data: bytes) -> Any:
@@ -181,19 +186,30 @@ class Log:
 
     def close(self) -> None:
         """Decide what counts as the time of every message; it is then in `Rows.logged`."""
-        self.tracks = [track for track in self.tracks if track.count()]
         for track in self.tracks:
-            if track.messages.further and track.count() == 1:
-                track.lay_out()
-            elif (count := track.messages.shortened) > 0:
-                what = f"topic {track.topic.name}: of every message the first point alone is taken"
-                self.findings.append(Finding("left out", self.source, what, count=count))
+            self._settle(track)
+        self.tracks = [track for track in self.tracks if track.count()]
         by_stamp, behind = self._clock()
         self.marks = [mark._replace(time=mark.time - behind) for mark in self.marks]
         for track in self.tracks:
             for rows in track.rows:
                 rows.logged = rows.stamped if track in by_stamp else rows.logged
                 rows.stamped = array("q")
+
+    def _settle(self, track: Track) -> None:
+        """Lay out a topic's only message, where it speaks of several times; tell what is left."""
+        topic, count, messages = track.topic, track.count(), track.messages
+        if not count and topic.encoding != "json":
+            self.left_out[topic.name] = topic.kind
+        if count == 1 and messages.further:
+            track.lay_out()
+        elif messages.shortened:
+            what = f"topic {topic.name}: of every message the first point alone is taken"
+            self._found("left out", what, count=messages.shortened)
+        if count and messages.wide:
+            listed = ", ".join(messages.wide)
+            what = f"topic {topic.name}: lists of more than {WIDEST} numbers are left out: {listed}"
+            self._found("left out", what)
 
     def times(self, which: Callable[[Rows], bool] = lambda _: True) -> Int[ndarray, " T"]:
         """Return the times [ns] at which anything was said, each once, in order."""
@@ -218,8 +234,9 @@ class Log:
                 stamped.append(track)
             elif any(s.any() for s in stamps):
                 self._found(
+                    "time",
                     f"topic {track.topic.name}: the stamps in its headers are not all there, or do "
-                    "not rise; the times at which its messages were recorded are taken"
+                    "not rise; the times at which its messages were recorded are taken",
                 )
         offsets = {track.topic: track.offsets() for track in stamped}
         behind = {topic: int(np.median(late)) for topic, late in offsets.items()}
@@ -234,17 +251,18 @@ class Log:
         one = one and max(behind.values()) - min(behind.values()) <= LATE_NS
         size = max((behind[topic] for topic in far), key=abs) / 1e9
         self._found(
+            "time",
             f"the stamps in the headers of {', '.join(topic.name for topic in far)} are not of the "
             f"clock by which they were recorded ({size:.6g} s behind it); the "
             f"{'stamps' if one else 'times at which they were recorded'} are taken",
-            size,
+            size=size,
         )
         if one:
             return stamped, int(np.median(list(behind.values())))
         return [track for track in stamped if track.topic not in far], 0
 
-    def _found(self, what: str, size: float | None = None) -> None:
-        self.findings.append(Finding("time", self.source, what, size=size))
+    def _found(self, kind: Kind, what: str, **told: Any) -> None:
+        self.findings.append(Finding(kind, self.source, what, **told))
 
 
 def recording_of(path: Path, logs: list[Log], cuts: Cuts) -> Recording:

@@ -58,6 +58,7 @@ class RosMessages:
     def __init__(self, topic: Topic, distribution: str) -> None:
         self.further: list[tuple[int, list[float]]] = []
         self.shortened = 0
+        self.wide: dict[str, None] = {}
         self._kind = topic.kind
         self._types = Types(topic, distribution)
         store = self._types.store
@@ -90,14 +91,13 @@ class RosMessages:
             stamp = seconds * 1_000_000_000 + nanoseconds
         if self._kind == TRAJECTORY:
             self._take_points(message)
-            message.points = message.points[:1]
         self._last = message
         return self._numbers.into(found, message), stamp, found
 
     def columns(self) -> list[tuple[str, str, bool]]:
         """Return path, unit and whether it is usual, of every number of the last message."""
         units: list[str] = []
-        plain = self._plain(self._kind, self._last, (), "", units)
+        plain = self._plain(self._kind, self._last, "", (), "", units)
         paths = (path for path, _ in numbers(plain))
         if self._kind == TRAJECTORY:
             paths = (path.removeprefix(".points[0]") for path in paths)
@@ -109,19 +109,26 @@ class RosMessages:
         return not secondary and not is_bookkeeping(path)
 
     def _take_points(self, trajectory: Any) -> None:
-        """Note the points of the first trajectory, should it be the only one."""
-        self.shortened += len(trajectory.points) > 1
+        """Leave a trajectory its first point; note those of the first, if it is the only one."""
+        points = trajectory.points
+        self.shortened += len(points) > 1
         if self._last is None:
-            for point in trajectory.points:
-                after, row = point.time_from_start, list[float]()
-                one = type(trajectory)(trajectory.header, trajectory.joint_names, [point])
-                self._numbers.into(row, one)
+            for point in points:
+                after, row, trajectory.points = point.time_from_start, list[float](), [point]
+                self._numbers.into(row, trajectory)
                 self.further.append((after.sec * 1_000_000_000 + after.nanosec, row))
             if len({len(row) for _, row in self.further}) > 1:
                 self.further = []
+        trajectory.points = points[:1]
 
     def _plain(
-        self, kind: str, message: Any, labels: tuple[str, ...], unit: str, units: list[str]
+        self,
+        kind: str,
+        message: Any,
+        path: str,
+        labels: tuple[str, ...],
+        unit: str,
+        units: list[str],
     ) -> dict[str, Any]:
         """Return a message as JSON would hold it, and add the unit of every number to `units`."""
         fields = self._types.numbered(kind)
@@ -129,17 +136,19 @@ class RosMessages:
         labels = next((found for found in own if found), labels)
         plain: dict[str, Any] = {}
         for field in fields:
-            value = getattr(message, field.attribute)
+            value, here = getattr(message, field.attribute), f"{path}.{field.name}"
             told = UNITS.get(f"{kind}.{field.name}", UNITS.get(kind, unit))
-            if field.kind and field.several:
+            if field.several and len(value) > WIDEST and (field.kind or field.is_number):
+                self.wide[here] = None
+            elif field.kind and field.several:
                 frames = _labels([getattr(item, FRAME, "") for item in value])
                 inside = () if len(labels) == len(value) else labels
-                parts = [self._plain(field.kind, v, inside, told, units) for v in _narrow(value)]
+                parts = [self._plain(field.kind, v, here, inside, told, units) for v in value]
                 plain[field.name] = _labelled(parts, frames or labels)
             elif field.kind:
-                plain[field.name] = self._plain(field.kind, value, labels, told, units)
+                plain[field.name] = self._plain(field.kind, value, here, labels, told, units)
             elif field.is_number:
-                items = [float(v) for v in (_narrow(value) if field.several else [value])]
+                items = [float(v) for v in (value if field.several else [value])]
                 units += [told] * len(items)
                 plain[field.name] = _labelled(items, labels) if field.several else items[0]
         return plain
@@ -183,13 +192,15 @@ class _Numbers:
             value = get(message)
             if what == "alone":
                 found += value[:-1]
-            elif what == "list":
-                alike.append(len(value))
-                found += _narrow(value).tolist()
             elif what == "names":
                 alike.append(value if isinstance(value, str) else tuple(value))
+            elif len(value) > WIDEST:
+                alike.append(None)
             elif inner is not None:
-                alike.append(tuple(inner.into(found, item) for item in _narrow(value)))
+                alike.append(tuple([inner.into(found, item) for item in value]))
+            else:
+                alike.append(len(value))
+                found += value.tolist()
         return tuple(alike)
 
 
@@ -201,10 +212,6 @@ def _stamp(types: Types, kind: str) -> Any:
             path = field.attribute + inside[field.kind]
             return attrgetter(f"{path}.sec", f"{path}.nanosec")
     return None
-
-
-def _narrow(items: Any) -> Any:
-    return items if len(items) <= WIDEST else items[:0]
 
 
 def _names_others(field: Field) -> bool:
