@@ -1,10 +1,10 @@
 """Reading a ROS bag, beside what its library takes to pass over and decode the same messages.
 
-A bag of JointStates (7 joints at 500 Hz, with velocities and efforts), wrenches at 100 Hz and
-pictures at 30 Hz, which make up most of its bytes. In turns, in one process: all messages passed
-over and those decoded that are used, with the library alone; the bag read as a recording; and what
-`motionese inspect` computes of it. The memory is the most that was allocated at once, as a share of
-the recording's arrays.
+Two bags of each kind: JointStates (7 joints at 500 Hz, with velocities and efforts), wrenches at
+100 Hz and pictures at 30 Hz, which make up most of the bytes; and the same without pictures, of a
+twentieth of the size. In turns, in one process: all messages passed over and those decoded that are
+used, with the library alone; the bag read as a recording; and looked at as `motionese inspect`
+does. The memory is the most that this allocates at once, beside the recording's own arrays.
 
     python benchmarks/reading_bags.py [MEGABYTES]
 """
@@ -13,6 +13,7 @@ import sys
 import tempfile
 import tracemalloc
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from time import process_time
 
@@ -27,15 +28,15 @@ from rosbags.typesys import Stores, get_typestore
 from motionese.recordings import read, survey
 
 MEGABYTES = 1000
-PICTURE = 300_000
-"""Bytes of a picture."""
+PICTURES = {300_000: 1.0, 0: 0.05}
+"""Bytes of a picture, and the share of the megabytes of a bag with such pictures."""
 TURNS = 3
 TIMES, MEMORY = 2.0, 4.0
 """The targets."""
 KINDS = ("ROS 1", "ROS 2, SQLite", "ROS 2, MCAP")
 
 
-def write_bag(folder: Path, kind: str, megabytes: float) -> Path:
+def write_bag(folder: Path, kind: str, megabytes: float, picture: int) -> Path:
     """Write a bag of about this size, and return what is to be read."""
     is_first = kind == "ROS 1"
     store = get_typestore(Stores.ROS1_NOETIC if is_first else Stores.LATEST)
@@ -61,10 +62,10 @@ def write_bag(folder: Path, kind: str, megabytes: float) -> Path:
             message = types[told[topic]](header=header(at), **fields)
             writer.write(topics[topic], at + 200_000, serialize(message, told[topic]))
 
-        pixels = rng.integers(0, 256, PICTURE, np.uint8)
+        pixels = rng.integers(0, 256, picture, np.uint8)
         image = {"height": 1, "width": 1, "encoding": "", "is_bigendian": 0, "step": 1}
         vector = types["geometry_msgs/msg/Vector3"]
-        for i in range(int(megabytes * 1e6 / (PICTURE * 0.06 + 350))):
+        for i in range(int(megabytes * 1e6 / (picture * 0.06 + 350))):
             at = 1_700_000_000_000_000_000 + i * 2_000_000
             lists = {k: rng.normal(size=7) for k in ("position", "velocity", "effort")}
             put("/joint_states", at, name=names, **lists)
@@ -72,7 +73,7 @@ def write_bag(folder: Path, kind: str, megabytes: float) -> Path:
                 force, torque = (vector(*rng.normal(size=3)) for _ in range(2))
                 wrench = types["geometry_msgs/msg/Wrench"](force=force, torque=torque)
                 put("/wrench", at, wrench=wrench)
-            if i % 50 < 3:
+            if picture and i % 50 < 3:
                 put("/image", at, data=pixels, **image)
     return writer.path
 
@@ -116,18 +117,18 @@ def main() -> None:
     times = ("library", "read", "inspect", "×", f"≤ {TIMES:g}")
     for heading in ("", *times, "MB", "× kept", f"≤ {MEMORY:g}"):
         table.add_column(heading, justify="right" if table.columns else "left")
-    for kind in KINDS:
+    for kind, picture in product(KINDS, PICTURES):
         with tempfile.TemporaryDirectory() as folder:
-            path = write_bag(Path(folder), kind, megabytes)
+            path = write_bag(Path(folder), kind, megabytes * PICTURES[picture], picture)
             ways = (library, read, lambda p: survey(read(p)))
             each = [[seconds(way, path) for way in ways] for _ in range(TURNS)]
-            alone, reading, inspecting = np.median(each, axis=0)
             most, kept = memory(path)
         ratio = float(np.median([turn[2] / turn[0] for turn in each]))
-        figures = (f"{alone:.2f}", f"{reading:.2f}", f"{inspecting:.2f}", f"{ratio:.2f}")
+        figures = (*(f"{t:.2f}" for t in np.median(each, axis=0)), f"{ratio:.2f}")
         verdicts = ["met" if good else "missed" for good in (ratio <= TIMES, most <= MEMORY * kept)]
-        table.add_row(kind, *figures, verdicts[0], f"{most:.0f}", f"{most / kept:.1f}", verdicts[1])
-    Console().print(table)
+        name = kind if picture else f"{kind}, no pictures"
+        table.add_row(name, *figures, verdicts[0], f"{most:.0f}", f"{most / kept:.1f}", verdicts[1])
+    Console(width=100).print(table)
 
 
 if __name__ == "__main__":

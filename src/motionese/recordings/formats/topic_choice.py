@@ -56,11 +56,18 @@ class TopicChoice:
         log.tracks = [t for t in asked.values() if t is not None and not self._marks(t.topic)]
         log.close()
         if not log.tracks:
+            if self.there and not log.left_out | log.undefined:
+                self.check(source)
             raise RecordingError(f"{source}: {self._nothing(log)}")
         return log
 
-    def check(self, source: Path, logs: Sequence[Log]) -> None:
-        """Check that every pattern and the marker fit a topic; `SettingError` where they do not."""
+    def check(self, source: Path, logs: Sequence[Log] = ()) -> None:
+        """Check that every pattern fits a topic, and the marker one of every log.
+
+        Raises:
+            SettingError: A pattern or marker that fits no topic at all.
+            RecordingError: A log in which nothing was said on the marker's topic.
+        """
         there = [f"{name} ({kind})" for name, kind in self.there.items()]
         for pattern in (*(self.patterns or ()), *([self.marker] if self.marker else [])):
             if not any(_fits(name, pattern) for name in self.there):
