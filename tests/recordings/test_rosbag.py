@@ -373,9 +373,9 @@ def test_topics_are_chosen_by_patterns_and_what_is_there_is_told(tmp_path):
 
     assert read(path, topics=["g?"]).channels == ("/go.data",)
     assert len(read(path, topics=["/j*", "/go"]).channels) == 3
-    with pytest.raises(SettingError, match=r"unknown topic '/joints?';.*/joint_states \(sensor_ms"):
+    with pytest.raises(SettingError, match="unknown topic '/joint';.* there are: /joint_states, /go"):
         read(path, topics=["/go", "/joint"])
-    with pytest.raises(SettingError, match=r"unknown topic '/jnt'; did you mean '/joint_states"):
+    with pytest.raises(SettingError, match="unknown topic '/jnt'; did you mean '/joint_states'"):
         read(path, topics=["/jnt"])
     with pytest.raises(SettingError, match="topics is the topics that are read, of rosbag, mcap"):
         (tmp_path / "a.csv").write_text("a\n1\n")

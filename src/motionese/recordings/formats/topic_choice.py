@@ -68,10 +68,9 @@ class TopicChoice:
             SettingError: A pattern or marker that fits no topic at all.
             RecordingError: A log in which nothing was said on the marker's topic.
         """
-        there = [f"{name} ({kind})" for name, kind in self.there.items()]
         for pattern in (*(self.patterns or ()), *([self.marker] if self.marker else [])):
             if not any(_fits(name, pattern) for name in self.there):
-                raise SettingError(f"{source}: {unknown('topic', pattern, there)}")
+                raise SettingError(f"{source}: {unknown('topic', pattern, self.there)}")
         for log in logs:
             if self.marker is not None and not log.marks:
                 raise RecordingError(f"{log.source}: nothing was said on its topic {self.marker}")
