@@ -335,30 +335,3 @@ def test_trimming_looks_at_what_was_observed():
     found, _, _ = prepared(one(values, observed=seen, rate_hz=9.0), trim=0.1)
 
     assert found[:, 0].tolist() == [0, 1, 0]
-
-
-# --- logs of several topics ---
-
-
-@pytest.mark.parametrize(("slow", "fast"), [(10, 50), (100, 1000)])
-@pytest.mark.parametrize("jitter", [0.0, 0.1])
-def test_a_slower_topic_of_a_log_is_filled_in(slow, fast, jitter):
-    rng = np.random.default_rng(0)
-    count = 200 * slow // fast, 200
-    times = [
-        (np.arange(n) + jitter * rng.uniform(-1, 1, n)) / r
-        for n, r in zip(count, (slow, fast), strict=True)
-    ]
-    stamps = np.unique(np.concatenate(times))
-    observed = np.stack([np.isin(stamps, t) for t in times], axis=1)
-    log = one(np.repeat(3 * stamps[:, None], 2, axis=1), stamps, observed, rate_hz=float(fast))
-
-    values, seen, ready = prepared(log)
-
-    assert ready.rate_hz == fast
-    assert abs(len(values) - 200) <= 1
-    # Nothing is told beyond the slower topic's last message.
-    filled = int(fast * times[0][-1])
-    assert seen[1:filled].all()
-    at = (np.arange(len(values)) / fast + stamps[0])[1:filled]
-    np.testing.assert_allclose(values[1:filled], np.repeat(3 * at[:, None], 2, axis=1), atol=1e-9)
