@@ -106,4 +106,5 @@ def _empty(store, kind):
                 values[name] = np.zeros(length, kind_of.get(base[0], base[0]))
             else:
                 values[name] = []
-    return store.types[kind](**values)
+    # By position: a field may be called as a word of Python is.
+    return store.types[kind](*values.values())

@@ -1,5 +1,6 @@
 """Bags of ROS 1 and 2: joints, poses, and whatever else holds numbers become channels."""
 
+import itertools
 import re
 import shutil
 import sqlite3
@@ -488,6 +489,13 @@ def test_a_missing_package_is_told_with_its_extra(tmp_path, monkeypatch):
         read(write(tmp_path / "a", "ros1", states()))
 
 
+def test_a_missing_decompressor_of_mcap_is_told(tmp_path, monkeypatch):
+    path = write(tmp_path / "bag", "mcap storage", states())
+    monkeypatch.setattr("mcap.stream_reader.zstandard", None)
+    with pytest.raises(MissingPackageError, match="needs the package 'zstandard'"):
+        read(path)
+
+
 def test_a_bag_is_not_written(tmp_path):
     with pytest.raises(
         RecordingError, match=r"ROS bags are not written, MCAP files are: --to mcap"
@@ -507,6 +515,15 @@ def whole(tmp_path_factory):
     return found
 
 
+def tried(path):
+    """Read a bag as a user would; only sentences may come out."""
+    try:
+        survey(read(path))
+        Motions.read(path, nan="gap", rate_hz=20.0)
+    except MotioneseError as error:
+        assert "\n" not in str(error)
+
+
 def tried_when_damaged(whole, tmp_path, kind, data):
     name, content = whole[kind]
     damaged = bytearray(content)
@@ -516,11 +533,7 @@ def tried_when_damaged(whole, tmp_path, kind, data):
         del damaged[data.draw(st.integers(0, len(damaged))) :]
     path = tmp_path / name
     path.write_bytes(damaged)
-    try:
-        survey(read(path))
-        Motions.read(path, nan="gap", rate_hz=20.0)
-    except MotioneseError as error:
-        assert "\n" not in str(error)
+    tried(path)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -536,6 +549,81 @@ def test_a_damaged_bag_gives_a_recording_or_one_sentence(whole, tmp_path, kind, 
 @given(data=st.data())
 def test_many_damaged_bags(whole, tmp_path, kind, data):
     tried_when_damaged(whole, tmp_path, kind, data)
+
+
+BASES = ("bool", "int8", "uint8", "int32", "uint64", "float32", "float64", "string")
+ENDINGS = ("", "", "[]", "[2]", "[<=3]")
+NAMES = ("name", "position", "data", "header", "stamp", "joint_names", "child_frame_id", "class")
+
+
+def made_up(version, data, kind):
+    """A message of a type that somebody made up, with lists of a few items."""
+    store = bags.STORES[version]
+    message = made(version, kind)
+    for name, (shape, inner) in store.fielddefs[kind][1]:
+        attribute = name if hasattr(message, name) else f"{name}_"
+        if shape > 2:
+            (of, base), _ = inner
+            count = 2 if shape == 3 else data.draw(st.integers(0, 3))
+            if of == 2:
+                items = [made_up(version, data, base) for _ in range(count)]
+            elif base[0] == "string":
+                items = [data.draw(st.sampled_from(["a", "b", "", "é"])) for _ in range(count)]
+            else:
+                items = np.resize(np.arange(2, dtype=getattr(message, attribute).dtype), count)
+            setattr(message, attribute, items)
+        elif shape == 2 and inner.startswith("my_msgs"):
+            setattr(message, attribute, made_up(version, data, inner))
+    return message
+
+
+def tried_with_made_up_types(folder, kind, data):
+    fields = st.lists(
+        st.tuples(
+            st.sampled_from((*BASES, "std_msgs/Header", "{inner}")),
+            st.sampled_from(ENDINGS),
+            st.sampled_from(NAMES),
+        ),
+        min_size=1,
+        max_size=5,
+        unique_by=lambda field: field[2],
+    )
+    count = next(COUNT)
+    outer, inner = (f"{part}{count}" for part in ("Outer", "Inner"))
+    for name, bases in ((inner, "float64"), (outer, f"my_msgs/{inner}")):
+        told = data.draw(fields)
+        bags.define(
+            **{
+                name: "\n".join(
+                    f"{base.format(inner=bases)}{ending} {field}" for base, ending, field in told
+                )
+            }
+        )
+    messages = [
+        ("/made", f"my_msgs/{outer}", i / 10, lambda v: made_up(v, data, f"my_msgs/msg/{outer}"))
+        for i in range(3)
+    ]
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    tried(write(folder / "bag", kind, messages))
+
+
+COUNT = itertools.count()
+
+
+@pytest.mark.parametrize("kind", ["ros1", "mcap"])
+@settings(max_examples=15)
+@given(data=st.data())
+def test_types_that_somebody_made_up_give_a_recording_or_one_sentence(tmp_path, kind, data):
+    tried_with_made_up_types(tmp_path / "made", kind, data)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["ros1", "mcap"])
+@settings(max_examples=2000)
+@given(data=st.data())
+def test_many_types_that_somebody_made_up(tmp_path, kind, data):
+    tried_with_made_up_types(tmp_path / "made", kind, data)
 
 
 # --- large bags ---
