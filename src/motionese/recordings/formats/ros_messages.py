@@ -218,7 +218,7 @@ def _names_others(field: Field) -> bool:
     return field.several and field.name in LABELS and field.base == "string"
 
 
-def _labels(names: Sequence[str]) -> tuple[str, ...]:
+def _labels(names: Sequence[Any]) -> tuple[str, ...]:
     labels = strings(list(names)) or ()
     return labels if all(labels) and len(set(labels)) == len(labels) else ()
 
