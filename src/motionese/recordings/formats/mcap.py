@@ -12,8 +12,8 @@ from pathlib import Path
 from motionese.errors import RecordingError
 from motionese.recordings.formats.bag_files import messages
 from motionese.recordings.formats.conventions import natural
+from motionese.recordings.formats.log_recording import recording_of
 from motionese.recordings.formats.mcap_writing import write
-from motionese.recordings.formats.message_log import recording_of
 from motionese.recordings.formats.takes import Cuts
 from motionese.recordings.formats.topic_choice import TopicChoice
 from motionese.recordings.recording import Recording

@@ -14,7 +14,8 @@ from motionese.errors import RecordingError
 from motionese.recordings.finding import Finding
 from motionese.recordings.formats.bag_files import COMPRESSED, READING, messages
 from motionese.recordings.formats.conventions import fault, imported, natural, why
-from motionese.recordings.formats.message_log import Find, Log, Track, recording_of
+from motionese.recordings.formats.log_recording import recording_of
+from motionese.recordings.formats.message_log import Find, Log, Track
 from motionese.recordings.formats.takes import Cuts
 from motionese.recordings.formats.topic_choice import TopicChoice
 from motionese.recordings.recording import Recording

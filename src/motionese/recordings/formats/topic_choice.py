@@ -6,6 +6,7 @@ from pathlib import Path
 
 from motionese.errors import RecordingError, SettingError, unknown
 from motionese.recordings.formats.json_messages import JsonMessages
+from motionese.recordings.formats.log_clock import settle_times
 from motionese.recordings.formats.mcap_writing import TopicMetadata
 from motionese.recordings.formats.message_log import Find, Log, Messages, Topic, Track
 from motionese.recordings.formats.ros_messages import RosMessages
@@ -32,7 +33,7 @@ class TopicChoice:
         messages: Callable[[Find], Iterable[tuple[Track, int, bytes]]],
         distribution: str = "",
     ) -> Log:
-        """Read a log and close it.
+        """Read a log whole.
 
         Args:
             source: For messages.
@@ -55,6 +56,7 @@ class TopicChoice:
             (log.mark if self._marks(track.topic) else log.add)(track, logged, data)
         log.tracks = [t for t in asked.values() if t is not None and not self._marks(t.topic)]
         log.close()
+        settle_times(log)
         if not log.tracks:
             if self.there and not log.left_out | log.undefined:
                 self.check(source)
