@@ -15,6 +15,7 @@ import pytest
 from bags import KINDS, joints, made, write
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typed import refused, typed
 
 from motionese import Motions
 from motionese.errors import MissingPackageError, MotioneseError, RecordingError, SettingError
@@ -447,6 +448,21 @@ def test_a_marker_that_is_not_there_is_refused(tmp_path):
         read(path, marker="/take")
 
 
+def test_topics_silences_and_marks_are_options_of_the_command_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    marks = [("/take", "std_msgs/String", 0.7, {"data": "push"})]
+    messages = sorted([*marks, *states(count=40)], key=lambda m: m[2])
+    write("bag", "mcap", [m for m in messages if not 0.4 < m[2] < 0.6])
+
+    for options, told in (
+        (("--topic", "/joint*", "/take", "--pause", "0.1"), "2 motions of 8 to 28 rows at 20 Hz"),
+        (("--marker", "/take"), "1 motion of 26 rows at 20 Hz, 2 channels"),
+    ):
+        status, output, _ = typed("import", "bag", "--out", "x.npz", *options)
+        assert (status, told in output) == (0, True), output
+    assert "unknown topic '/jnt'; did you mean" in refused("inspect", "bag", "--topic", "/jnt")
+
+
 # --- what cannot be read ---
 
 
@@ -489,6 +505,13 @@ def test_a_missing_package_is_told_with_its_extra(tmp_path, monkeypatch):
         read(write(tmp_path / "a", "ros1", states()))
 
 
+def test_ros_in_mcap_needs_the_package_for_ros(tmp_path, monkeypatch):
+    (file,) = write(tmp_path / "bag", "mcap", states()).glob("*.mcap")
+    monkeypatch.setitem(sys.modules, "rosbags.typesys", None)
+    with pytest.raises(MissingPackageError, match=r"'rosbags'.*motionese\[ros\]"):
+        read(file)
+
+
 def test_a_missing_decompressor_of_mcap_is_told(tmp_path, monkeypatch):
     path = write(tmp_path / "bag", "mcap storage", states())
     monkeypatch.setattr("mcap.stream_reader.zstandard", None)
@@ -498,7 +521,7 @@ def test_a_missing_decompressor_of_mcap_is_told(tmp_path, monkeypatch):
 
 def test_a_bag_is_not_written(tmp_path):
     with pytest.raises(
-        RecordingError, match=r"ROS bags are not written, MCAP files are: --to mcap"
+        RecordingError, match="a ROS bag or a folder of them is read, not written; --to is"
     ):
         write_recording(tmp_path / "a.bag", read(write(tmp_path / "b", "ros1", states())))
 

@@ -25,6 +25,7 @@ class Format:
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
         options: Which of `OPTIONS` its `read` takes.
+        written: Whether the module has a `write`.
     """
 
     what: str
@@ -32,6 +33,7 @@ class Format:
     suffixes: tuple[str, ...] = ()
     inside: tuple[str, ...] = ()
     options: tuple[str, ...] = ()
+    written: bool = True
 
 
 OPTIONS = {
@@ -45,15 +47,17 @@ OPTIONS = {
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
 TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
-BAGS = (".bag", ".db3", ".zstd", ".active")
-BAGS_INSIDE = ("metadata.yaml", "*/metadata.yaml", "*.bag", "*.db3", "*.zstd", "*.active")
+BAGS = (
+    (".bag", ".db3", ".zstd", ".active"),
+    ("metadata.yaml", "*/metadata.yaml", "*.bag", "*.db3", "*.zstd", "*.active"),
+)
 OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 FORMATS = {
     "npz": Format("motionese's own .npz", npz, (".npz",)),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
-    "rosbag": Format("a ROS bag or a folder of them", rosbag, BAGS, BAGS_INSIDE, OF_LOGS),
+    "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
     "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
     "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, OF_TABLES),
 }
@@ -103,11 +107,17 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     """
     path = Path(path)
     name = _named(format) or _by_suffix(path)
+    written = [n for n, f in FORMATS.items() if f.written]
     if name is None:
-        suffixes = (suffix for known in FORMATS.values() for suffix in known.suffixes)
+        suffixes = (suffix for n in written for suffix in FORMATS[n].suffixes)
         raise SettingError(
             f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
-            f"or name the format (--to), one of {', '.join(FORMATS)}"
+            f"or name the format (--to), one of {', '.join(written)}"
+        )
+    if name not in written:
+        raise RecordingError(
+            f"{path}: {FORMATS[name].what} is read, not written; "
+            f"--to is one of {', '.join(written)}"
         )
     FORMATS[name].module.write(path, _checked(recording))
 

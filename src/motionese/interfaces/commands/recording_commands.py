@@ -20,8 +20,8 @@ def import_recordings(
 ) -> None:
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
 
-    SOURCE is a CSV or a folder of them, a LeRobot folder, robomimic HDF5, an EIPL folder, MCAP
-    with JSON messages, or .npz that motionese wrote.
+    SOURCE is a CSV or a folder of them, a LeRobot folder, robomimic HDF5, an EIPL folder, a ROS
+    bag, MCAP with messages of JSON or ROS, or .npz that motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
         from motionese.interfaces.commands.summaries import description
@@ -56,7 +56,8 @@ def export(
         Path | None, Option(metavar="PATH", help="The file or folder to write data to.")
     ] = None,
     to: Annotated[
-        str | None, Option(metavar=FORMATS, help="As what; else by the suffix of PATH.")
+        str | None,
+        Option(metavar=FORMATS.replace("rosbag|", ""), help="As what; else by the suffix of PATH."),
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""

@@ -17,7 +17,7 @@ from motionese.recordings.recording import Episode, Recording
 
 
 def recording_of(path: Path, logs: list[Log], cuts: Cuts) -> Recording:
-    """Return the recording of closed logs, cut into takes. The logs are used up.
+    """Return what logs told as a recording, cut into takes. The logs are used up.
 
     Rows are the times at which any of the topics spoke, counted from the episode's first; a
     channel is observed where its own topic did. The rate is that of the usual channel that was

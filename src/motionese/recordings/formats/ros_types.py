@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any, NamedTuple
 
+from motionese.errors import MotioneseError
 from motionese.recordings.formats.conventions import imported
 from motionese.recordings.formats.message_log import Topic
 
@@ -50,6 +51,8 @@ class Types:
         try:
             self.store = _defined(topic) if topic.definition.strip() else _standard(distribution)
             self.store.get_msgdef(topic.kind)
+        except MotioneseError:
+            raise
         # What the parser raises depends on what is wrong with the definition.
         except Exception as error:
             raise UndefinedTypeError(topic.kind) from error

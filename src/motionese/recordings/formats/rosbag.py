@@ -62,11 +62,6 @@ def read(
     return recording_of(path, logs, cuts).found(*found)
 
 
-def write(path: Path, recording: Recording) -> None:
-    """Refuse to write: bags are read alone."""
-    raise RecordingError(f"{path}: ROS bags are not written, MCAP files are: --to mcap")
-
-
 def _bags(path: Path) -> tuple[list[Path], list[Path]]:
     """Return the files and folders that are a bag each, and those that were not closed."""
     if path.name.endswith(OPEN):
