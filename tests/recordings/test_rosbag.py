@@ -395,6 +395,23 @@ def test_a_bag_in_several_files_is_one_episode(tmp_path):
         read(path)
 
 
+def test_a_folder_without_metadata_inside_another_is_one_bag_of_all_its_files(tmp_path):
+    for i, part in enumerate((list(states(count=20))[:11], list(states(count=20))[11:])):
+        path = write(tmp_path / f"part_{i}", "mcap", part)
+        (tmp_path / "all" / "take").mkdir(parents=True, exist_ok=True)
+        shutil.copy(path / f"part_{i}.mcap", tmp_path / "all" / "take" / f"take_{i}.mcap")
+
+    assert [(e.name, len(e.values)) for e in read(tmp_path / "all").episodes] == [("take", 20)]
+    assert [len(e.values) for e in read(tmp_path / "all" / "take").episodes] == [11, 9]
+
+
+def test_metadata_beside_tables_make_no_bag_of_them(tmp_path):
+    (tmp_path / "metadata.yaml").write_text("by: me")
+    (tmp_path / "a.csv").write_text("time,x\n0,1\n1,2\n")
+
+    assert read(tmp_path).channels == ("x",)
+
+
 def test_topics_are_chosen_by_patterns_and_what_is_there_is_told(tmp_path):
     bare = [("/go", "std_msgs/Float64", 0.3, {"data": 1})]
     path = write(tmp_path / "bag", "db3", [*states(), *bare])
@@ -405,7 +422,7 @@ def test_topics_are_chosen_by_patterns_and_what_is_there_is_told(tmp_path):
         read(path, topics=["/go", "/joint"])
     with pytest.raises(SettingError, match="unknown topic '/jnt'; did you mean '/joint_states'"):
         read(path, topics=["/jnt"])
-    with pytest.raises(SettingError, match="topics is the topics that are read, of rosbag, mcap"):
+    with pytest.raises(SettingError, match="topics is the topics that are read, of mcap, rosbag"):
         (tmp_path / "a.csv").write_text("a\n1\n")
         read(tmp_path / "a.csv", topics=["a"])
 

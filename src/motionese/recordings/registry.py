@@ -49,7 +49,9 @@ JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
 TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
 BAGS = (
     (".bag", ".db3", ".zstd", ".active"),
-    ("metadata.yaml", "*/metadata.yaml", "*.bag", "*.db3", "*.zstd", "*.active"),
+    tuple(
+        f"{i}*{end}" for i in ("", "*/") for end in (".bag", ".db3", ".mcap", ".zstd", ".active")
+    ),
 )
 OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 FORMATS = {
@@ -57,9 +59,9 @@ FORMATS = {
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
-    "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
     "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
     "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, OF_TABLES),
+    "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")

@@ -1,7 +1,8 @@
-"""Bags of ROS 1 and 2, without ROS: a .bag, a .db3, or a folder as `ros2 bag record` leaves it.
+"""Logs of topics: bags of ROS 1 and 2, read without ROS, and MCAP.
 
-One bag is one episode, unless its silences or a topic cut it into takes; a folder of bags is a
-recording. Channels are named as those of MCAP are.
+A bag is a .bag, .db3 or .mcap file, or a folder as `ros2 bag record` leaves it. One is one episode,
+unless its silences or a topic cut it into takes; a folder of them is a recording. Channels are
+named TOPIC.a.b by where the number stands in the message.
 """
 
 from collections.abc import Iterator, Sequence
@@ -44,8 +45,8 @@ def read(
 ) -> Recording:
     """Read a bag, or a folder of bags in natural order.
 
-    Rows and rate are as `recording_of` tells. All channels are usual but covariances, and the
-    velocities, accelerations and efforts of joints.
+    Rows and rate are as `recording_of` tells. All channels are usual but headers, stamps and
+    sequence numbers; in ROS also covariances, and velocities, accelerations, efforts of joints.
 
     Args:
         path: The file or folder.
@@ -71,9 +72,9 @@ def _bags(path: Path) -> tuple[list[Path], list[Path]]:
     if not path.is_dir() or (path / METADATA).exists():
         return [path], []
     inside = sorted(path.glob("[!.]*"), key=lambda p: natural(p.name))
-    bags = [p for p in inside if p.name.lower().endswith(SUFFIXES) or (p / METADATA).exists()]
+    bags = [p for p in inside if _is_stored(p) or (p.is_dir() and _stored_in(p))]
     if not bags:
-        raise RecordingError(f"{path}: holds no bag")
+        raise RecordingError(f"{path}: holds no {', '.join(SUFFIXES)}")
     return bags, [p for p in inside if p.name.endswith(OPEN)]
 
 
@@ -81,7 +82,7 @@ def _log(bag: Path, choice: TopicChoice) -> Log:
     if not bag.is_dir():
         name = Path(bag.name.removesuffix(COMPRESSED)).stem
         return choice.read(bag, name, partial(messages, bag))
-    told = _told(bag / METADATA)
+    told = _told(bag)
     files = [bag / PurePosixPath(name).name for name in told.relative_file_paths]
     if missing := [file.name for file in files if not file.exists()]:
         raise RecordingError(f"{bag}: {missing[0]} is missing, of which {METADATA} tells")
@@ -93,7 +94,19 @@ def _log(bag: Path, choice: TopicChoice) -> Log:
     return choice.read(bag, bag.name, whole, told.ros_distro or "")
 
 
-def _told(file: Path) -> _Bag:
+def _is_stored(path: Path) -> bool:
+    return path.is_file() and path.name.lower().endswith(SUFFIXES)
+
+
+def _stored_in(folder: Path) -> list[str]:
+    return sorted((p.name for p in folder.glob("[!.]*") if _is_stored(p)), key=natural)
+
+
+def _told(bag: Path) -> _Bag:
+    """Return what a folder tells of itself; where it does not, it is of all files in it."""
+    file = bag / METADATA
+    if not file.exists():
+        return _Bag(relative_file_paths=tuple(_stored_in(bag)))
     yaml = imported("ruamel.yaml", "ros", READING)
     try:
         content = yaml.YAML(typ="safe", pure=True).load(file.read_text(encoding="utf-8"))
