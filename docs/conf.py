@@ -34,6 +34,7 @@ python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 
 BESIDE_THE_CODE = {
+    "../integrations/lerobot_policy_motionese/README.md": "lerobot.md",
     "../src/motionese/network/README.md": "network.md",
     "../src/motionese/analysis/mochizuki2013/departures.md": "departures.md",
 }

@@ -10,7 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("src/**/*.md")])
+FOLDERS = ("docs", "src", "integrations")
+PAGES = sorted([*ROOT.glob("*.md"), *(page for f in FOLDERS for page in ROOT.glob(f"{f}/**/*.md"))])
 
 TUTORIAL = ROOT / "docs" / "your_own_robot.md"
 PYTHON = r"```python\n((?s:.*?))```"
@@ -22,7 +23,13 @@ SETTING = r"--set ([\w.]+=[^\s`]+)"
 SHOWN = {
     PYTHON: ("README.md", "docs/first_steps.md", "docs/your_own_robot.md", "docs/extending.md"),
     COMMAND: ("README.md", "docs/first_steps.md", "docs/your_own_robot.md", "docs/teach.md"),
-    LINK: ("README.md", "docs/index.md", "docs/gallery.md", "docs/api/index.md"),
+    LINK: (
+        "README.md",
+        "docs/index.md",
+        "docs/gallery.md",
+        "docs/api/index.md",
+        "integrations/lerobot_policy_motionese/README.md",
+    ),
     TARGET: ("README.md", "CONTRIBUTING.md", "docs/first_steps.md"),
     SETTING: ("README.md", "docs/first_steps.md"),
 }

@@ -18,18 +18,32 @@ from motionese.unit_interval import INNER_HIGH, INNER_LOW, from_unit, to_unit
 
 @dataclass(frozen=True)
 class Channel:
-    """One sensed quantity: its name, its unit, and the range [unit] it is expected in."""
+    """One sensed quantity.
+
+    Attributes:
+        name: Of no other channel beside it.
+        unit: Empty where unknown.
+        low, high: The range [unit] it is expected in.
+        binary: The two values [unit] at which it is held when it is generated, the lower first;
+            None for a quantity of any value.
+    """
 
     name: str
     unit: str
     low: float
     high: float
+    binary: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
             raise ChannelError(
                 f"channel '{self.name}': its range must be finite with low < high, "
                 f"got {self.low} to {self.high} {self.unit}"
+            )
+        if self.binary is not None and not self.low <= self.binary[0] < self.binary[1] <= self.high:
+            raise ChannelError(
+                f"channel '{self.name}': its two values must rise within its range "
+                f"{self.low} to {self.high} {self.unit}, got {self.binary}"
             )
 
 
@@ -79,6 +93,16 @@ class Channels(Sequence[Channel]):
         """Map the unit interval, last axis the channels, back to the channels' units."""
         self._check_width(values)
         return from_unit(values, self._low, self._span)
+
+    def held(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:
+        """Return values [the channels' units], binary channels at the nearer of their two."""
+        result = np.array(values)
+        for column, channel in enumerate(self._channels):
+            if channel.binary is not None:
+                low, high = channel.binary
+                above = result[..., column] > (low + high) / 2
+                result[..., column] = np.where(above, high, low)
+        return result
 
     def _check_width(self, values: Float[ndarray, "*shape"]) -> None:
         if values.ndim == 0 or values.shape[-1] != len(self):

@@ -1,5 +1,7 @@
 """Motions to learn and motions held out: by share or by name, each in their order."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -39,6 +41,25 @@ def test_names_are_held_out_in_the_order_of_the_motions():
 
 def test_fewer_than_five_motions_are_all_learned():
     assert split(FOUR) == (FOUR, None)
+
+
+def test_what_the_recording_sets_apart_is_held_out_unless_told_otherwise():
+    apart = replace(TEN, held_out=("h", "b"))
+    learned, unseen = split(apart)
+
+    assert (len(learned), unseen.names) == (8, ("b", "h"))
+    assert split(apart, 0.0)[1] is None
+    assert split(apart, ["a"])[1].names == ("a",)
+    assert split(apart.chosen(list("abc")))[1].names == ("b",)
+    assert split(apart.chosen(list("acd")))[1] is None
+    with pytest.raises(MotionError, match="held out b: leaves no motion to learn; --held-out 0"):
+        split(apart.chosen(["b"]))
+
+
+def test_what_is_set_apart_stays_so_in_a_file(tmp_path):
+    replace(TEN, held_out=("h", "b")).chosen(list("abc")).write(tmp_path / "apart.npz")
+
+    assert Motions.read(tmp_path / "apart.npz").held_out == ("b",)
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,14 @@
 """Folders of EIPL: padding is turned into lengths."""
 
+import shutil
+
 import numpy as np
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 
-from motionese.errors import RecordingError
+from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
 
 
@@ -45,6 +50,67 @@ def test_a_still_stretch_within_an_episode_is_no_padding(tmp_path):
     assert [len(e.values) for e in read(tmp_path).episodes] == [4, 3]
 
 
+PADDINGS = {
+    "last": lambda values: values[-1],
+    "zeros": lambda values: np.zeros(2),
+    "nan": lambda values: np.full(2, np.nan),
+}
+
+
+@pytest.mark.parametrize("padding", PADDINGS)
+@given(
+    lengths=st.lists(st.integers(2, 9), min_size=1, max_size=6),
+    rest=st.integers(0, 5),
+    home=st.booleans(),
+)
+def test_a_rest_that_the_longest_shows_is_kept(tmp_path, padding, lengths, rest, home):
+    real = [np.random.default_rng(n).normal(size=(n, 2)) for n in lengths]
+    if home and padding == "last":
+        real = [np.concatenate([values, np.zeros((1, 2))]) for values in real]
+    real = [np.concatenate([values, np.repeat(values[-1:], rest, axis=0)]) for values in real]
+    longest = max(map(len, real))
+    missing = [longest - len(values) for values in real]
+    assume(padding != "zeros" or max(missing) != 1)  # one row of zeros may be the goal
+    filled = [np.tile(PADDINGS[padding](v), (longest - len(v), 1)) for v in real]
+    padded = [np.concatenate(parts) for parts in zip(real, filled, strict=True)]
+    np.save(tmp_path / "joints.npy", np.stack(padded))
+    found = read(tmp_path)
+
+    for episode, values in zip(found.episodes, real, strict=True):
+        np.testing.assert_array_equal(episode.values, values)
+    assert len(found.findings) == (max(missing) > 0)
+    for finding in found.findings:
+        assert f"{sum(missing)} rows at the ends of {np.count_nonzero(missing)} of" in finding.what
+
+
+def test_what_is_cut_is_told_once_with_the_way_to_keep_it(folder):
+    path, _ = folder("last")
+    (finding,) = read(path).findings
+
+    assert finding.sentence == (
+        f"{path}: episode '0', row 5: 6 rows at the ends of 2 of 3 episodes only pad them to the "
+        f"length of the longest: left out; give {path / 'joints.npy'} itself to keep them"
+    )
+
+
+def test_folders_of_one_length_are_measured_together(folder):
+    path, _ = folder("last", "train")
+    (path / "test").mkdir()
+    np.save(path / "test" / "joints.npy", np.load(path / "train" / "joints.npy")[[0, 2]])
+
+    assert [len(e.values) for e in read(path).episodes] == [5, 9, 7, 5, 7]
+
+
+def test_an_end_at_zero_is_no_padding_where_others_repeat_their_last_row(tmp_path):
+    joints = np.random.default_rng(0).normal(size=(4, 9, 2))
+    for i, length in enumerate((9, 4, 5, 6)):
+        joints[i, length:] = joints[i, length - 1]
+    joints[3, 5:] = 0.0
+    np.save(tmp_path / "joints.npy", joints)
+
+    assert [len(e.values) for e in read(tmp_path).episodes] == [9, 4, 5, 6]
+
+
 def test_train_and_test_are_told_apart_and_images_left_alone(folder):
     path, _ = folder("last", "train")
     folder("last", "test")
@@ -58,6 +124,8 @@ def test_train_and_test_are_told_apart_and_images_left_alone(folder):
     assert found.channels == ("joint_0", "joint_1", "force_0")
     assert [e.name for e in found.episodes][::3] == ["train/0", "test/0"]
     assert found.ranges == {"joint_0": (-3.0, 3.0)}
+    assert found.held_out == ("test/0", "test/1", "test/2")
+    assert read(path / "test").held_out == ()
 
 
 def test_a_recording_is_written_as_it_reads(whole, tmp_path):
@@ -98,3 +166,41 @@ def test_arrays_that_do_not_fit_are_refused(tmp_path, joints, bounds, match):
 
     with pytest.raises(RecordingError, match=match):
         read(tmp_path)
+
+
+ARRAYS = arrays(
+    st.sampled_from(["f8", "f4", "i4", "u1", "?", "U2"]),
+    array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=4),
+)
+PARTS = st.dictionaries(
+    st.sampled_from(["joints", "train/joints", "test/joints", "train/force", "joint_bounds"]),
+    ARRAYS | arrays("f8", st.tuples(st.just(3), st.integers(1, 5), st.just(2))),
+    min_size=1,
+)
+
+
+def made_up(tmp_path_factory, parts):
+    """Read a folder of any arrays: a recording or one sentence."""
+    folder = tmp_path_factory.mktemp("made_up")
+    for name, array in parts.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        np.save(folder / f"{name}.npy", array)
+    try:
+        found = read(folder, "eipl")
+        assert all(finding.sentence for finding in found.findings)
+    except MotioneseError as error:
+        assert "\n" not in str(error)
+    shutil.rmtree(folder)
+
+
+@settings(max_examples=60)
+@given(PARTS)
+def test_any_arrays_give_a_recording_or_one_sentence(tmp_path_factory, parts):
+    made_up(tmp_path_factory, parts)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(PARTS)
+def test_many_arrays_do_too(tmp_path_factory, parts):
+    made_up(tmp_path_factory, parts)

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyarrow import parquet
 
+from motionese import Motions
 from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
 from motionese.recordings.formats.lerobot_features import features_of, read_info
@@ -233,7 +234,7 @@ def others_dataset(folder, version="v2.1", shift=0.0):
     return folder
 
 
-@pytest.mark.parametrize("version", ["v2.1", "v3.0"])
+@pytest.mark.parametrize("version", ["v2.0", "v2.1", "v3.0"])
 def test_datasets_of_others_are_read(tmp_path, version):
     found = read(others_dataset(tmp_path / "data", version))
 
@@ -251,6 +252,11 @@ def test_datasets_of_others_are_read(tmp_path, version):
     assert found.episodes[1].values[1, :8].tolist() == [103, 104, 105, 103, 104, 105, 103, 104]
     assert found.episodes[0].values[:, 9].tolist() == [0, 2, 4, 6, 8]
     assert all(e.observed.all() for e in found.episodes)
+    (doubled,) = found.findings
+    assert doubled.sentence == (
+        f"{tmp_path / 'data'}: channel 'observation.state': 2 of its columns are called "
+        "'gripper': told apart by number"
+    )
 
 
 @pytest.mark.parametrize(
@@ -287,6 +293,73 @@ def test_time_stamps_that_do_not_keep_the_rate_are_kept(tmp_path):
     np.testing.assert_allclose(found.episodes[0].times, expected, atol=1e-6)
 
 
+def retimed(folder, episode, rate_hz):
+    """Stamp an episode's rows at another rate."""
+    file = folder / f"data/chunk-000/episode_{episode:06d}.parquet"
+    rows = parquet.read_table(file)
+    at, stamps = rows.schema.get_field_index("timestamp"), np.arange(len(rows)) / rate_hz
+    parquet.write_table(rows.set_column(at, "timestamp", pa.array(stamps)), file)
+
+
+@pytest.mark.parametrize(
+    ("episodes", "rate", "told"),
+    [
+        ([0, 1], 50, "tells 30 Hz, but the times show 50 Hz: the times are taken (2 times)"),
+        ([1], 25, "tells 30 Hz, but the times show 25 Hz: rows are put at 30 Hz by the times"),
+        ([0, 1], 30.2, None),
+    ],
+)
+def test_time_stamps_that_contradict_the_rate_are_told(tmp_path, episodes, rate, told):
+    folder = others_dataset(tmp_path / "data")
+    for episode in episodes:
+        retimed(folder, episode, rate)
+    found = read(folder)
+
+    assert (told or "") in " ".join(finding.sentence for finding in found.findings)
+    assert len(found.findings) == 1 + (told is not None)
+    motions = Motions.read(folder, channels=["elbow"], ranges={"elbow": (0, 200)})
+    assert motions.rate_hz == (50.0 if rate == 50 else 30.0)
+    assert motions.lengths == (5, 4)
+
+
+def test_splits_for_testing_are_held_out(folder):
+    assert read(folder).held_out == ()
+    rewrite(folder, lambda i: i.update(splits={"train": "0:1", "val": "1:9", "all": [0, 1]}))
+    found = read(folder)
+
+    assert found.held_out == (found.episodes[1].name,)
+    (told,) = found.findings
+    assert told.what == "'val' names an episode 'episode_000002', which is not there"
+    rewrite(folder, lambda i: i.update(splits={"train": "1:2"}))
+    assert read(folder).held_out == (found.episodes[0].name,)
+
+
+def test_numbers_of_every_kind_are_taken_where_they_are_observed(tmp_path):
+    folder = others_dataset(tmp_path / "data")
+    more = {
+        "observation.closed": ("bool", [1], pa.array([True, False, True, False])),
+        "observation.ticks": ("int64", [1], pa.array([3, 4, 5, 6])),
+        "subtask": ("int64", [1], pa.array([0, 0, 1, 1])),
+        "observation.pose": ("float32", [4, 4], pa.array([[0.0] * 16] * 4)),
+        "observation.points": ("float32", [2, 4, 4], pa.array([[0.0] * 32] * 4)),
+    }
+    (folder / "data/chunk-000/episode_000000.parquet").unlink()
+    file = folder / "data/chunk-000/episode_000001.parquet"
+    rows = parquet.read_table(file)
+    for key, (_, _, column) in more.items():
+        rows = rows.append_column(key, column)
+    parquet.write_table(rows, file)
+    features = {k: {"dtype": d, "shape": s, "names": None} for k, (d, s, _) in more.items()}
+    rewrite(folder, lambda i: i["features"].update(features) or i.pop("total_frames"))
+    found = read(folder)
+
+    assert found.channels[-2:] == ("observation.closed", "observation.ticks")
+    assert found.episodes[0].values[:, -2:].tolist() == [[1, 3], [0, 4], [1, 5], [0, 6]]
+    told = [f.sentence for f in found.findings if f.kind == "left out"]
+    assert len(told) == 1
+    assert "channel 'observation.pose': a feature of shape [4, 4] is left out" in told[0]
+
+
 def rewrite(folder, change):
     """Change info.json."""
     file = folder / "meta/info.json"
@@ -298,10 +371,13 @@ def rewrite(folder, change):
 BAD_INFO = {
     "an older version": (
         lambda i: i.update(codebase_version="v1.6"),
-        "'v1.6' is not read; LeRobotDataset v3.0 and v2.1 are",
+        "'v1.6' is not read; LeRobotDataset v3.0, v2.1, v2.0 are",
     ),
     "no version": (lambda i: i.pop("codebase_version"), "codebase_version: Field required"),
-    "no features": (lambda i: i.update(features={}), "no feature of dtype float32 or float64"),
+    "no features": (
+        lambda i: i.update(features={}),
+        r"no feature of numbers of shape \[n\]; there are: none",
+    ),
     "no rate": (lambda i: i.update(fps=0), "fps: Input should be greater than 0"),
     "rows that are away": (lambda i: i.update(total_frames=12), "tells 12 total_frames.*hold 11"),
     "episodes away": (lambda i: i.update(total_episodes=3), "tells 3 total_episodes.*hold 2"),
@@ -386,11 +462,15 @@ FEATURE = st.fixed_dictionaries(
         "names": st.lists(st.text(max_size=2), max_size=3) | JSON,
     }
 )
+INFOS = {
+    "features": st.dictionaries(st.text(max_size=4), FEATURE, max_size=3),
+    "fps": JSON,
+    "rest": JSON,
+}
 
 
-@settings(max_examples=100)
-@given(features=st.dictionaries(st.text(max_size=4), FEATURE, max_size=3), fps=JSON, rest=JSON)
-def test_any_info_gives_features_or_one_sentence(tmp_path, features, fps, rest):
+def described(tmp_path, features, fps, rest):
+    """Read an info.json of anything: features with unique names, or one sentence."""
     info = {"codebase_version": "v3.0", "fps": fps, "features": features, "total_frames": rest}
     (tmp_path / "meta").mkdir(exist_ok=True)
     for told in (rest, info, {**info, "fps": 30, "total_frames": 1}):
@@ -403,9 +483,21 @@ def test_any_info_gives_features_or_one_sentence(tmp_path, features, fps, rest):
             assert len(set(names)) == len(names)
 
 
-@settings(max_examples=60)
-@given(st.data())
-def test_damaged_data_gives_a_recording_or_one_sentence(folder, data):
+@settings(max_examples=100)
+@given(**INFOS)
+def test_any_info_gives_features_or_one_sentence(tmp_path, features, fps, rest):
+    described(tmp_path, features, fps, rest)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(**INFOS)
+def test_many_infos_do_too(tmp_path, features, fps, rest):
+    described(tmp_path, features, fps, rest)
+
+
+def damage(folder, data):
+    """Read a dataset with a few bytes of its data changed: a recording or one sentence."""
     file = folder / "data/chunk-000/file-000.parquet"
     content = file.read_bytes()
     damaged = bytearray(content)
@@ -418,3 +510,30 @@ def test_damaged_data_gives_a_recording_or_one_sentence(folder, data):
         assert "\n" not in str(error)
     finally:
         file.write_bytes(content)
+
+
+@settings(max_examples=60)
+@given(st.data())
+def test_damaged_data_gives_a_recording_or_one_sentence(folder, data):
+    damage(folder, data)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(st.data())
+def test_much_damaged_data_does_too(folder, data):
+    damage(folder, data)
+
+
+SPLITS = st.dictionaries(
+    st.sampled_from(["train", "val", "test", "other"]),
+    JSON | st.builds("{}:{}".format, st.integers(-2, 10**19), st.integers(-2, 10**19)),
+)
+
+
+@given(SPLITS | JSON)
+def test_any_splits_give_a_recording(folder, splits):
+    rewrite(folder, lambda i: i.update(splits=splits))
+    found = read(folder)
+
+    assert set(found.held_out) <= {e.name for e in found.episodes}

@@ -13,17 +13,29 @@ from motionese.recordings import read, write
 
 def test_a_recording_reads_as_it_was_written(recording, tmp_path):
     timed = replace(recording.episodes[0], times=np.sort(np.random.default_rng(1).random(7)))
-    recording = replace(recording, episodes=(timed, *recording.episodes[1:]), usual=("a[0]",))
+    recording = replace(
+        recording, episodes=(timed, *recording.episodes[1:]), usual=("a[0]",), held_out=("UR ↓",)
+    )
     path = tmp_path / "out.npz"
     write(path, recording)
     found = read(path)
 
-    for name in ("channels", "units", "ranges", "rate_hz", "usual"):
+    for name in ("channels", "units", "ranges", "rate_hz", "usual", "held_out"):
         assert getattr(found, name) == getattr(recording, name)
     for was, now in zip(recording.episodes, found.episodes, strict=True):
         assert now.name == was.name
         for field in ("times", "values", "observed"):
             np.testing.assert_array_equal(getattr(now, field), getattr(was, field))
+
+
+def test_files_from_before_episodes_were_held_out_are_read(recording, tmp_path):
+    path = tmp_path / "out.npz"
+    write(path, recording)
+    arrays = dict(np.load(path))
+    arrays["metadata"] = np.array(str(arrays["metadata"]).replace('"held_out":[],', ""))
+    np.savez(path, **arrays)
+
+    assert read(path).held_out == ()
 
 
 def test_the_same_content_is_the_same_bytes(recording, tmp_path):

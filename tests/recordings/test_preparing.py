@@ -335,3 +335,114 @@ def test_trimming_looks_at_what_was_observed():
     found, _, _ = prepared(one(values, observed=seen, rate_hz=9.0), trim=0.1)
 
     assert found[:, 0].tolist() == [0, 1, 0]
+
+
+# --- episodes ---
+
+
+def several(*lengths, names=None, rates=None):
+    """Return a recording of one rising channel in episodes of these lengths."""
+    episodes = []
+    for i, rows in enumerate(lengths):
+        times = None if rates is None else np.arange(rows) / rates[i]
+        values = np.linspace(i, i + 1, rows)[:, None]
+        episodes.append(Episode.whole(names[i] if names else str(i), values, times))
+    rate = None if rates else 10.0
+    return Recording(Path("f.csv"), ("c",), ("",), {}, rate, tuple(episodes), ("c",))
+
+
+def taken(recording, **choice):
+    return [e.name for e in prepare(recording, choose(**choice)).episodes]
+
+
+def test_episodes_are_taken_and_left_out_by_name_pattern_and_number():
+    named = several(3, 3, 3, 3, names=["pick_1", "pick_2", "place_1", "7"])
+
+    assert taken(named, episodes=["pick*"]) == ["pick_1", "pick_2"]
+    assert taken(named, skip=["place_1", "7"]) == ["pick_1", "pick_2"]
+    assert taken(named, episodes=["p*"], skip=["*_1"]) == ["pick_2"]
+    assert taken(named, episodes=["7"]) == ["7"]
+    letters = several(3, 3, 3, names=["a", "b", "c"])
+    assert taken(letters, episodes=["1-2"]) == ["b", "c"]
+    numerals = several(3, 3, 3, names=["4", "5", "9"])
+    assert taken(numerals, episodes=["5-9"]) == ["5", "9"]
+
+
+@pytest.mark.parametrize(
+    ("choice", "match"),
+    [
+        ({"episodes": ["x*"]}, r"f\.csv: unknown episode 'x\*'"),
+        ({"skip": ["9"]}, "unknown episode '9'"),
+        ({"skip": ["*"]}, "no episode is left; there are: 0, 1"),
+    ],
+)
+def test_episodes_that_are_not_there_are_refused(choice, match):
+    with pytest.raises(RecordingError, match=match):
+        taken(several(3, 3), **choice)
+
+
+def test_episodes_of_a_row_are_left_out_and_told_where_there_are_others():
+    ready = prepare(several(3, 1, 4, 0), choose())
+
+    assert [e.name for e in ready.episodes] == ["0", "2"]
+    (told,) = ready.findings
+    assert (told.kind, told.episode, told.count) == ("left out", "1", 2)
+    assert "--skip 1" in told.remedy
+    assert not prepare(several(3, 1, 4), choose(skip=["1"], strict=True)).findings
+
+
+def test_all_channels_that_never_change_are_told_at_once():
+    rows = one([[3, 0, 1, 5], [3, 1, 1, 5]], rate_hz=9.0, channels=["a", "b", "c", "d"])
+
+    with pytest.raises(ChannelError, match=r"--exclude a c d\); the same of c, d"):
+        prepared(rows)
+    assert prepared(rows, exclude=["a", "c", "d"])[2].channels == ("b",)
+
+
+# --- rates that differ ---
+
+
+def test_episodes_of_other_rates_are_refused_unless_they_are_resampled():
+    mixed = several(41, 41, 101, rates=[20.0, 20.0, 50.0])
+
+    with pytest.raises(
+        RecordingError, match="differ in their rates: '0' at 20 Hz, '2' at 50 Hz; -"
+    ):
+        prepare(mixed, choose())
+    ready = prepare(mixed, choose(resample_hz=10.0))
+
+    assert [len(e.values) for e in ready.episodes] == [21, 21, 21]
+    assert [e.name for e in ready.episodes] == ["0", "1", "2"]
+    for i, episode in enumerate(ready.episodes):
+        np.testing.assert_allclose(episode.values[:, 0], np.linspace(i, i + 1, 21), atol=1e-9)
+
+
+@given(st.integers(0, 999), st.floats(0, 0.3), st.floats(5, 200))
+def test_jitter_is_no_other_rate(seed, jitter, rate):
+    rng, episodes = np.random.default_rng(seed), []
+    for i in range(4):
+        times = (np.arange(30) + jitter * rng.uniform(-0.5, 0.5, 30)) / rate
+        episodes.append(Episode.whole(str(i), np.linspace(0, 1, 30)[:, None], times))
+    recording = Recording(Path("f.csv"), ("c",), ("",), {}, None, tuple(episodes), ("c",))
+
+    assert prepare(recording, choose()).rate_hz == pytest.approx(rate, rel=0.05)
+
+
+# --- binary channels ---
+
+
+def test_binary_channels_keep_their_two_values_at_any_rate():
+    gripper = np.repeat([2.0, 5.0, 2.0], 7)
+    rows = one(np.stack([gripper, np.linspace(0, 1, 21)], 1), rate_hz=10.0)
+
+    _, _, ready = prepared(rows, binary=["c0"], resample_hz=7.0)
+
+    assert ready.binary == {"c0": (2.0, 5.0)}
+    assert set(ready.episodes[0].values[:, 0]) == {2.0, 5.0}
+
+
+def test_a_channel_of_more_than_two_values_is_not_binary():
+    with pytest.raises(
+        ChannelError, match="channel 'c0' takes 3 values; --binary names channels o"
+    ):
+        prepared(one([0, 1, 2], rate_hz=9.0), binary=["c0"])

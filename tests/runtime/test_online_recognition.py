@@ -45,6 +45,14 @@ def test_a_learned_motion_is_recognised_and_predicted(model):
         np.testing.assert_array_equal(known.expected(row + 9), known.ahead[-1])
 
 
+def test_without_rows_ahead_the_rest_is_known_alike(model):
+    path = generated(model, "wave", 12)
+    none, some = (observed(OnlineRecognition(model, ahead=n), path)[-1] for n in (0, 3))
+    assert none.ahead.shape == none.spread.shape == (0, 3)
+    assert none.learned == some.learned
+    np.testing.assert_array_equal(none.path, some.path)
+
+
 def test_hidden_channels_follow_from_the_others(model):
     path = generated(model, "reach")
     online = OnlineRecognition(model, observed=["lift", "grip"], window=10)

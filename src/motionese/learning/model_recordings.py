@@ -1,6 +1,7 @@
 """Recordings for a trained model: its channels, in its order, at its rate."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,16 @@ from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
 from motionese.learning.motions.motions import Motions
 from motionese.learning.recognition.recognise import SAME_RATE
-from motionese.recordings import OPTIONS, choose, chosen, prepare, read
+from motionese.recordings import (
+    OPTIONS,
+    Finding,
+    Recording,
+    choose,
+    chosen,
+    in_units,
+    prepare,
+    read,
+)
 
 
 def read_for(
@@ -61,7 +71,11 @@ def read_for(
             f"{', '.join(own)}; name them in the model's: --channels {','.join(order)}"
         )
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
-    ready = prepare(found, choose(**{**given, "channels": own, "exclude": (), "ranges": ranges}))
+    units = {c.name: c.unit for c in channels}
+    found = in_units(chosen(found, choose(units=wish.units, channels=own)), units)
+    found = found.found(*_far_out(found, ranges))
+    own_way = {"channels": own, "exclude": (), "ranges": ranges, "units": None}
+    ready = prepare(found, choose(**{**given, **own_way}))
     motions = Motions.from_recording(ready)
     if abs(motions.rate_hz - fit.rate_hz) > SAME_RATE * fit.rate_hz:
         raise RecordingError(
@@ -69,6 +83,23 @@ def read_for(
             f"{fit.rate_hz:g}; resample it to that (--resample {fit.rate_hz:g})"
         )
     return _widened(motions, channels)
+
+
+def _far_out(recording: Recording, ranges: Mapping[str, tuple[float, float]]) -> list[Finding]:
+    """Return what is told of channels of unknown units whose values are mostly beyond the model's.
+
+    A range is widened by its own width on either side first.
+    """
+    findings = []
+    for column, (name, unit) in enumerate(zip(recording.channels, recording.units, strict=True)):
+        seen = np.concatenate([e.values[e.observed[:, column], column] for e in recording.episodes])
+        low, high = ranges[name]
+        far = (seen < 2 * low - high) | (seen > 2 * high - low)
+        if not unit and len(seen) and far.mean() > 0.5:
+            what = f"mostly far beyond the model's {low:.3g} to {high:.3g}: is it in another unit?"
+            remedy = f"--unit {name}=UNIT tells in which"
+            findings.append(Finding("unit", recording.source, what, remedy, channel=name))
+    return findings
 
 
 def _widened(motions: Motions, channels: Channels) -> Motions:
@@ -82,4 +113,5 @@ def _widened(motions: Motions, channels: Channels) -> Motions:
 
     values, masks = (list(map(widened, each)) for each in (motions.values, motions.observed))
     rate, names = motions.rate_hz, motions.names
-    return Motions.from_arrays(values, channels, rate, observed=masks, names=names)
+    wide = Motions.from_arrays(values, channels, rate, observed=masks, names=names)
+    return replace(wide, examined=motions.examined, held_out=motions.held_out)

@@ -19,7 +19,8 @@ def split(
     Args:
         motions: All motions.
         held_out: A share of them, drawn at random (one at least unless it is 0), or their names;
-            a tenth where left out, none of fewer than five.
+            where left out those that the recording sets apart; else a tenth, none of fewer than
+            five.
         seed: Of the draw.
 
     Raises:
@@ -28,7 +29,7 @@ def split(
     """
     count = len(motions)
     if held_out is None:
-        held_out = 0.1 if count >= ENOUGH else 0.0
+        held_out = motions.set_apart or (0.1 if count >= ENOUGH else 0.0)
     if isinstance(held_out, int | float):
         if not 0 <= held_out < 1:
             raise MotionError(
@@ -41,7 +42,9 @@ def split(
     learned = [name for name in motions.names if name not in chosen]
     if not learned:
         told = f"{held_out:g}" if isinstance(held_out, int | float) else ", ".join(held_out)
-        raise MotionError(f"held out {told}: leaves no motion to learn")
+        raise MotionError(
+            f"held out {told}: leaves no motion to learn; --held-out 0 holds none out"
+        )
     if not chosen:
         return motions, None
     return motions.chosen(learned), motions.chosen([n for n in motions.names if n in chosen])

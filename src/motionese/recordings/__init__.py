@@ -1,11 +1,14 @@
 """What is in files of recordings, read, chosen, put on an even grid, before it is learned from."""
 
+from motionese.recordings.binary import with_binary
 from motionese.recordings.choice import MARGIN, Choice, choose, chosen
-from motionese.recordings.finding import Finding
-from motionese.recordings.preparation import prepare, range_of
+from motionese.recordings.examination import examined
+from motionese.recordings.finding import Finding, refuse_any
+from motionese.recordings.preparation import finished, prepare, range_of
 from motionese.recordings.recording import Episode, Recording
 from motionese.recordings.registry import FORMATS, OPTIONS, read, write
 from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
+from motionese.recordings.units import in_units
 
 __all__ = [
     "FORMATS",
@@ -20,9 +23,14 @@ __all__ = [
     "Survey",
     "choose",
     "chosen",
+    "examined",
+    "finished",
+    "in_units",
     "prepare",
     "range_of",
     "read",
+    "refuse_any",
     "survey",
+    "with_binary",
     "write",
 ]

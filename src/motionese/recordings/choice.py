@@ -1,5 +1,6 @@
 """What the user chooses about a recording, checked where it is given, and its channels."""
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fnmatch import fnmatchcase
@@ -7,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import ChannelError, SettingError, unknown
+from motionese.errors import ChannelError, RecordingError, SettingError, unknown
 from motionese.recordings.recording import Recording
 
 MARGIN = 0.05
@@ -88,7 +89,13 @@ def choose(**given: Any) -> Choice:
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:
-    """Return the recording with the chosen channels only, in the order chosen."""
+    """Return the recording with the chosen episodes, and channels in the order chosen.
+
+    Raises:
+        ChannelError: A channel that does not exist, or none that is left.
+        RecordingError: An episode that does not exist, or none that is left.
+    """
+    recording = _chosen_episodes(recording, choice)
     everything, wanted = recording.channels, choice.channels
     taken = recording.usual if wanted is None else matching(recording, wanted, everything)
     dropped = matching(recording, choice.exclude, everything)
@@ -106,8 +113,58 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         channels=kept,
         units=tuple(units.values()),
         ranges={c: r for c, r in recording.ranges.items() if c in kept},
+        binary={c: two for c, two in recording.binary.items() if c in kept},
         usual=kept,
+        findings=tuple(f for f in recording.findings if f.channel not in {*everything} - {*kept}),
     )
+
+
+def _chosen_episodes(recording: Recording, choice: Choice) -> Recording:
+    names = [e.name for e in recording.episodes]
+    taken = names if choice.episodes is None else _episodes(recording, choice.episodes)
+    dropped = _episodes(recording, choice.skip)
+    kept = [name for name in names if name in taken and name not in dropped]
+    if not kept:
+        raise RecordingError(
+            f"{recording.source}: no episode is left; there are: {', '.join(names)}"
+        )
+    return replace(
+        recording,
+        episodes=tuple(e for e in recording.episodes if e.name in kept),
+        held_out=tuple(name for name in recording.held_out if name in kept),
+    )
+
+
+def _episodes(recording: Recording, told: Iterable[str]) -> set[str]:
+    """Return the episodes of these names, patterns or numbers.
+
+    A number is a name where one is called so, or else counts the episodes from 0.
+    """
+    names, found = [e.name for e in recording.episodes], set[str]()
+    for text in told:
+        between = re.fullmatch(r"(\d{1,9})(?:-(\d{1,9}))?", text)
+        fits = [n for n in names if n == text] or [n for n in names if fnmatchcase(n, text)]
+        if between and not fits:
+            first, last = int(between[1]), int(between[2] or between[1])
+            numbered = {int(n): n for n in names if n.isdecimal() and len(n) <= 9}
+            numbered = numbered or dict(enumerate(names))
+            fits = [name for number, name in numbered.items() if first <= number <= last]
+        if not fits:
+            raise RecordingError(f"{recording.source}: {unknown('episode', text, names)}")
+        found |= set(fits)
+    return found
+
+
+def given_ranges(recording: Recording, choice: Choice) -> dict[str, tuple[float, float]]:
+    """Return the ranges that the file or the user tells, by channel; the user's before the file's.
+
+    Raises:
+        ChannelError: A range of a channel that is not there.
+    """
+    ranges = dict(recording.ranges)
+    for pattern, limits in choice.ranges.items():
+        ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)
+    return ranges
 
 
 def matching(

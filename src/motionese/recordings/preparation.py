@@ -2,19 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from shlex import quote
 
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import ChannelError, MotionError
-from motionese.recordings.choice import Choice, chosen, matching
+from motionese.errors import ChannelError, MotionError, RecordingError
+from motionese.recordings.binary import held, with_binary
+from motionese.recordings.choice import Choice, chosen, given_ranges
+from motionese.recordings.examination import examined
+from motionese.recordings.finding import Finding, refuse_any
 from motionese.recordings.grid import even, resampled
-from motionese.recordings.rate import rate_of
-from motionese.recordings.recording import Episode, Recording
-
-LARGEST = 1e100
-"""Beyond this, squares and differences are no longer finite."""
+from motionese.recordings.rate import of_one_rate, rate_of
+from motionese.recordings.recording import LARGEST, Episode, Recording
 
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
@@ -22,20 +23,71 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
 
     Raises:
         ChannelError: A channel that does not exist, or whose range cannot be told, or none left.
-        MotionError: A value that is not finite, or an episode of fewer than two rows.
+        MotionError: A value that is not finite, or no episode of two rows or more.
         RecordingError: A rate that nobody tells or that differs, or times that do not rise, are in
-            another unit, or span far more rows than there are.
+            another unit, or span far more rows than there are; or, if strict, any finding.
         SettingError: A rate to resample to that is out of reach.
     """
-    recording = finite(chosen(recording, choice), nan_is_gap=choice.nan == "gap")
-    _check_lengths(recording)
-    recording = even(recording, rate_of(recording, choice.rate_hz))
-    if choice.resample_hz is not None:
-        recording = resampled(recording, choice.resample_hz)
+    return finished(with_binary(examined(chosen(recording, choice), choice), choice), choice)
+
+
+def finished(recording: Recording, choice: Choice) -> Recording:
+    """Do what `prepare` does with a recording that was chosen from and examined already."""
+    recording = finite(long_enough(recording), nan_is_gap=choice.nan == "gap")
+    recording = at_one_rate(recording, choice)
     if choice.trim > 0:
         recording = trimmed(recording, choice.trim, all_ranges(recording, choice))
-    _check_lengths(recording)
+    recording = held(long_enough(recording))
+    if choice.strict:
+        refuse_any(recording.findings)
     return replace(recording, ranges=all_ranges(recording, choice))
+
+
+def long_enough(recording: Recording) -> Recording:
+    """Return the recording without episodes of fewer than two rows, which is told.
+
+    `MotionError` where no other is there.
+    """
+    short = [e for e in recording.episodes if len(e.values) < 2]
+    if not short:
+        return recording
+    rows = len(short[0].values)
+    told = "1 row" if rows == 1 else "no rows"
+    if len(short) == len(recording.episodes):
+        raise MotionError(
+            f"{recording.source}: episode '{short[0].name}' has {told}; at least 2 are needed"
+        )
+    finding = Finding(
+        kind="left out",
+        source=recording.source,
+        what=f"has {told}, and is left out",
+        remedy=f"--skip {quote(short[0].name)} leaves it out without a word",
+        episode=short[0].name,
+        size=float(rows),
+        count=len(short),
+    )
+    kept = tuple(e for e in recording.episodes if len(e.values) >= 2)
+    return replace(recording, episodes=kept).found(finding)
+
+
+def at_one_rate(recording: Recording, choice: Choice) -> Recording:
+    """Return the recording on an even grid; episodes of different rates must be resampled.
+
+    `RecordingError` where they differ and no rate to resample to is chosen.
+    """
+    parts = [replace(recording, episodes=same) for same in of_one_rate(recording)]
+    if len(parts) > 1 and choice.resample_hz is None:
+        told = [f"'{p.episodes[0].name}' at {rate_of(p, choice.rate_hz):g} Hz" for p in parts]
+        raise RecordingError(
+            f"{recording.source}: episodes differ in their rates: {', '.join(told)}; "
+            f"--resample HZ brings them to one, --skip leaves some out"
+        )
+    ready = [even(part, rate_of(part, choice.rate_hz)) for part in parts]
+    if choice.resample_hz is not None:
+        ready = [resampled(part, choice.resample_hz) for part in ready]
+    by_name = {e.name: e for part in ready for e in part.episodes}
+    episodes = tuple(by_name[e.name] for e in recording.episodes)
+    return replace(recording, episodes=episodes, rate_hz=ready[0].rate_hz)
 
 
 def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
@@ -90,28 +142,22 @@ def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[floa
 
 def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
     """Return the range of every channel: given by the user, told by the file, or of the data."""
-    ranges = dict(recording.ranges)
-    for pattern, limits in choice.ranges.items():
-        ranges |= dict.fromkeys(matching(recording, [pattern], recording.channels), limits)
+    ranges, still, told = given_ranges(recording, choice), [], ""
     for column, name in enumerate(recording.channels):
         if name not in ranges:
             seen = [e.values[e.observed[:, column], column] for e in recording.episodes]
             try:
                 ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
             except ChannelError as error:
-                raise ChannelError(
-                    f"{recording.source}: {error} (--range {name}=LOW:HIGH, --exclude {name})"
-                ) from error
+                still.append(name)
+                told = told or str(error)
+    if still:
+        more = f"; the same of {', '.join(still[1:])}" if still[1:] else ""
+        names = " ".join(map(quote, still))
+        raise ChannelError(
+            f"{recording.source}: {told} (--range {still[0]}=LOW:HIGH, --exclude {names}){more}"
+        )
     return {name: ranges[name] for name in recording.channels}
-
-
-def _check_lengths(recording: Recording) -> None:
-    for episode in recording.episodes:
-        if (rows := len(episode.values)) < 2:
-            raise MotionError(
-                f"{recording.source}: episode '{episode.name}' has "
-                f"{'1 row' if rows == 1 else 'no rows'}; at least 2 are needed"
-            )
 
 
 def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:

@@ -7,10 +7,12 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError
-from motionese.recordings.recording import Recording
+from motionese.recordings.recording import Episode, Recording
 
 DIFFERS = 0.02
 """Share by which a rate that the user gives may differ from the file's."""
+OTHER_RATE = 0.05
+"""Share by which the rates of episodes differ, beyond their uncertainty, where they are others."""
 DROPPED = 1.5
 """Usual intervals from which on a row between two others was dropped."""
 OFF = 0.05
@@ -18,6 +20,40 @@ OFF = 0.05
 LATEST_S = 1e30
 """A time [s] that is no more than a number."""
 SLOWEST_HZ, FASTEST_HZ = 1e-3, 1e6
+
+
+def of_one_rate(recording: Recording) -> list[tuple[Episode, ...]]:
+    """Return the episodes in groups of one rate, as their times show it, in order of appearance.
+
+    Episodes without times belong to the first group.
+
+    Raises:
+        RecordingError: Times that are not finite, or do not rise.
+    """
+    _rising_times(recording)
+    groups: list[tuple[float, float, list[Episode]]] = []
+    others: list[Episode] = []
+    for episode in recording.episodes:
+        rate = None if episode.times is None else rate_of_times([episode.times])
+        if episode.times is None or rate is None or not 0 < rate < np.inf:
+            others.append(episode)
+            continue
+        off = _uncertainty(np.diff(episode.times) * rate)
+        near = (g for r, o, g in groups if abs(r - rate) <= (OTHER_RATE + o + off) * max(r, rate))
+        if (group := next(near, None)) is None:
+            groups.append((rate, off, [episode]))
+        else:
+            group.append(episode)
+    if not groups:
+        return [recording.episodes]
+    groups[0][2].extend(others)
+    return [tuple(group) for _, _, group in groups]
+
+
+def _uncertainty(intervals: Float[ndarray, " _"]) -> float:
+    """Return three standard errors of the mean of intervals, those with dropped rows aside."""
+    near = intervals[intervals < DROPPED]
+    return float(3 * near.std() / np.sqrt(len(near))) if len(near) else np.inf
 
 
 def rate_of(recording: Recording, given_hz: float | None) -> float:

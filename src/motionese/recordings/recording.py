@@ -10,6 +10,9 @@ from numpy import ndarray
 
 from motionese.recordings.finding import Finding
 
+LARGEST = 1e100
+"""Beyond this, squares and differences are no longer finite."""
+
 
 @dataclass(frozen=True)
 class Episode:
@@ -41,6 +44,11 @@ class Episode:
         """Return some rows of an evenly spaced episode, or some columns of any."""
         values, observed = self.values[rows, columns], self.observed[rows, columns]
         return replace(self, values=values, observed=observed)
+
+    @property
+    def known(self) -> Bool[ndarray, "T D"]:
+        """Where something was observed that can be computed with."""
+        return np.asarray(self.observed & (np.abs(self.values) <= LARGEST))
 
     def times_at(self, rate_hz: float | None) -> Float[ndarray, " T"] | None:
         """Return the rows' times [s]; where it has none, those of a rate; None without either."""

@@ -8,7 +8,7 @@ from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
-from motionese.recordings.formats import csv, eipl, lerobot, mcap, npz, robomimic, rosbag
+from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npz, rosbag
 from motionese.recordings.recording import Recording
 
 
@@ -54,11 +54,15 @@ BAGS = (
     ),
 )
 OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
+HDF5 = Format(
+    f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE
+)
 FORMATS = {
     "npz": Format("motionese's own .npz", npz, (".npz",)),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
-    "robomimic": Format("robomimic .hdf5", robomimic, (".hdf5", ".h5")),
+    "hdf5": HDF5,
+    "robomimic": HDF5,
     "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
     "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, OF_TABLES),
     "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
@@ -111,7 +115,7 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     name = _named(format) or _by_suffix(path)
     written = [n for n, f in FORMATS.items() if f.written]
     if name is None:
-        suffixes = (suffix for n in written for suffix in FORMATS[n].suffixes)
+        suffixes = dict.fromkeys(s for n in written for s in FORMATS[n].suffixes)
         raise SettingError(
             f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
             f"or name the format (--to), one of {', '.join(written)}"
@@ -134,7 +138,7 @@ def _found(path: Path) -> str:
     holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
     name = next(holding, None) if path.is_dir() else _by_suffix(path)
     if name is None:
-        known = ", ".join(f.what for f in FORMATS.values())
+        known = ", ".join(dict.fromkeys(f.what for f in FORMATS.values()))
         raise RecordingError(f"{path}: not a recording that is read here: {known}")
     return name
 

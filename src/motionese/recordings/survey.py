@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
+from motionese.recordings.binary import two_values
 from motionese.recordings.preparation import still_ends
 from motionese.recordings.rate import DROPPED, rate_of_times
 from motionese.recordings.recording import Episode, Recording
@@ -54,6 +55,7 @@ class ChannelNumbers(NamedTuple):
         still: Share of its steps from row to row in which it does not move.
         unobserved: Share of rows in which it was not observed.
         given: The range that the file tells, if it does.
+        binary: Whether it takes two values.
     """
 
     name: str
@@ -67,6 +69,7 @@ class ChannelNumbers(NamedTuple):
     nan: int
     infinite: int
     given: tuple[float, float] | None
+    binary: bool
 
 
 class Survey(NamedTuple):
@@ -160,6 +163,7 @@ def _channel(
         int((observed & np.isnan(values)).sum()),
         int((observed & np.isinf(values)).sum()),
         recording.ranges.get(name),
+        two_values([values[observed & np.isfinite(values)]]) is not None,
     )
 
 

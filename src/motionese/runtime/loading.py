@@ -138,7 +138,9 @@ def _channels(path: Path, channels: Any, width: int) -> dict[str, Any]:
             f"low < high, got {low[wrong[0]]:g} to {high[wrong[0]]:g}"
         )
     units = tuple(str(channel["unit"]) for channel in channels)
-    return {"channels": names, "units": units, "low": _fixed(low), "high": _fixed(high)}
+    two = np.array([channel.get("binary") or (np.nan, np.nan) for channel in channels], np.float64)
+    held = {"low": low, "high": high, "binary": two}
+    return {"channels": names, "units": units, **{name: _fixed(v) for name, v in held.items()}}
 
 
 def parse(content: bytes) -> tuple[dict[str, str], dict[str, ndarray]]:

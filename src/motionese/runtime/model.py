@@ -49,6 +49,8 @@ class RuntimeModel:
         lengths: Rows of every learned motion by its name; empty if the file does not tell.
         senses_first: Whether the potentials of the channels' units begin at what is sensed first;
             otherwise they begin at 0, and what is sensed is the first input alone.
+        binary: The two values at which a channel is held, the lower first; NaN for all others.
+            [D, 2]
     """
 
     weights: ndarray
@@ -62,6 +64,7 @@ class RuntimeModel:
     initial_states: Mapping[str, ndarray]
     lengths: Mapping[str, int]
     senses_first: bool
+    binary: ndarray
 
     @property
     def size(self) -> int:
@@ -145,6 +148,11 @@ class RuntimeModel:
     def from_unit(self, values: ndarray) -> ndarray:
         """Map the unit interval [D] to the channels' units."""
         return from_unit(values, self.low, self.high - self.low)
+
+    def held(self, values: ndarray) -> ndarray:
+        """Return values [D] in the channels' units, binary channels at the nearer of their two."""
+        low, high = self.binary.T
+        return np.where(np.isnan(low), values, np.where(values > (low + high) / 2, high, low))
 
     def per_channel(self, what: str, values: float | Mapping[str, Any], other: Any) -> list[Any]:
         """Spread one value, or values by channel name, over the channels.

@@ -298,5 +298,5 @@ class OnlineRecognition:
         variance = (here.loss + KNOWN * self._accuracy**2) / (values + KNOWN)
         change = changes.transpose(1, 0, 2).reshape(len(here.slope), -1)
         left = np.linalg.solve(here.curvature, change)
-        unit = np.sqrt(variance * (1 + (change * left).sum(0))).reshape(len(changes), -1)
+        unit = np.sqrt(variance * (1 + (change * left).sum(0))).reshape(changes.shape[::2])
         return np.asarray(unit * (self.model.high - self.model.low) / (INNER_HIGH - INNER_LOW))

@@ -82,8 +82,8 @@ class Player:
 
     @property
     def row(self) -> ndarray:
-        """Where the motion is, in the channels' units. [D]"""
-        return self._model.from_unit(self._row)
+        """Where the motion is, in the channels' units, binary channels held. [D]"""
+        return self._model.held(self._model.from_unit(self._row))
 
     @property
     def finite(self) -> bool:

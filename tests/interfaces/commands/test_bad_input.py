@@ -42,7 +42,7 @@ def bad_recordings():
     write_csv("nan.csv", cell=("wave", 3, 2, "nan"))
     write_csv("inf.csv", cell=("wave", 3, 2, "-inf"))
     write_csv("word.csv", cell=("wave", 3, 2, "left"))
-    write_csv("one.csv", motions | {"push": motions["push"][:1]})
+    write_csv("one.csv", {n: v[:1] for n, v in motions.items()})
     write_csv("flat.csv", {n: v * [1, 0, 1, 1] for n, v in motions.items()})
     write_csv("late.csv", cell=("wave", 3, 0, "0.1"))
     text = {
@@ -64,7 +64,7 @@ def bad_recordings():
         "nan.csv": "nan.csv: episode 'wave', row 3, channel 'x': values must be finite, got nan",
         "inf.csv": "inf.csv: episode 'wave', row 3, channel 'x': values must be finite, got -inf",
         "word.csv": "word.csv, line",
-        "one.csv": "one.csv: episode 'push' has 1 row; at least 2 are needed",
+        "one.csv": "one.csv: episode 'lift' has 1 row; at least 2 are needed",
         "flat.csv": "flat.csv: channel 'elbow' is always 0: give its range or leave it out",
         "empty.csv": "empty.csv: the file is empty",
         "header.csv": "header.csv: holds no rows below its header",

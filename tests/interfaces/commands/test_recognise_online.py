@@ -192,7 +192,7 @@ WRONG = {
     ),
     "kind": ([*ONLINE, "--log", "rerum"], "unknown log 'rerum'; did you mean 'rerun'?"),
     "out": ([*ONLINE, "--out", "new.npz"], "--out new.npz: its name must end in .csv"),
-    "itself": ([*ONLINE, "--out", "demos.csv"], "--out demos.csv: this is the recording itself"),
+    "itself": ([*ONLINE, "--out", "demos.csv"], "demos.csv: this is what is read (demos.csv)"),
     "figure": ([*ONLINE, "--out", "here.csv"], "--out, here.svg: this is a folder"),
 }
 

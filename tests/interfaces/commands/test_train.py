@@ -3,6 +3,7 @@
 import json
 import re
 import signal
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -65,6 +66,16 @@ def test_errors_of_held_out_motions_are_told_and_logged(arm):
         *("validation_loss", "validation_error"),
     }
     assert (line["epoch"], line["loss"]) == (100, fit.losses[-1])
+
+
+def test_what_the_file_sets_apart_is_held_out(arm):
+    replace(Motions.read("data.npz"), held_out=("push",)).write("apart.npz")
+    status, told, errors = typed("train", "apart.npz", "--epochs", "1", "--out", "new.safetensors")
+    fit = load("new.safetensors")
+
+    assert (status, errors) == (0, "")
+    assert fit.validation_names == ("push",)
+    assert "4 motions to learn, 1 held out, as the file says; Ctrl-C" in told
 
 
 def test_a_number_is_a_motion_where_one_has_that_name_and_below_one_a_share(arm):

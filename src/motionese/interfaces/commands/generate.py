@@ -10,7 +10,7 @@ from motionese.channels import Channels
 from motionese.errors import NO_MOTION, SettingError, unknown
 from motionese.interfaces.commands.initial_states import read_initial_states
 from motionese.interfaces.commands.motion_figure import write_figure
-from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_output
+from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_apart, check_output
 from motionese.interfaces.commands.summaries import reach
 from motionese.learning import Motions, generate_sequence, load
 
@@ -38,6 +38,7 @@ def generate_motion(
         blend: Rows of a transition between motions; found for None.
     """
     check_output("--out", out, (*RECORDINGS, *PICTURES))
+    check_apart([model, *([initial] if initial else [])], out)
     fit = load(model)
     assert fit.network.channels is not None, "a trained network carries channels"
     # Refuses a scale before rows are counted with it.

@@ -38,7 +38,10 @@ def train(
     epochs: Annotated[int | None, Option(min=1, help="Default: 3000.")] = None,
     held_out: Annotated[
         str | None,
-        Option(metavar="SHARE|NAMES", help="Motions not learned but tested; default: 0.1."),
+        Option(
+            metavar="SHARE|NAMES",
+            help="Motions not learned but tested; else as SOURCE says; else 0.1.",
+        ),
     ] = None,
     patience: Annotated[
         int | None,
@@ -77,7 +80,7 @@ def train(
         )
 
 
-@with_recording_options("unit", "range", "margin")
+@with_recording_options("range", "margin", "binary")
 def recognise(
     model: Model,
     motion: Annotated[Path, Argument(metavar="MOTION", help="A recording of motions.")],

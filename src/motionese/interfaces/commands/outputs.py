@@ -1,13 +1,13 @@
 """What commands write: looked at before they work for minutes; models and motions for others."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
 
 from motionese.errors import MotioneseError, SettingError, StorageError
-from motionese.interfaces.commands.summaries import description
+from motionese.interfaces.commands.summaries import description, tell_findings
 from motionese.interfaces.onnx_export import TOLERANCE, export_onnx
 from motionese.learning import Motions, load
 from motionese.recordings import FORMATS
@@ -36,9 +36,30 @@ def check_output(option: str, path: Path, suffixes: Sequence[str]) -> None:
         raise StorageError(f"{option} {path}: the folder {path.parent} cannot be written to")
 
 
+def check_apart(sources: Iterable[Path], *outputs: Path | None) -> None:
+    """Refuse an output that is a source, or lies in a folder that is read and would count there.
+
+    A source may be there under another spelling, or through a link.
+
+    Raises:
+        SettingError: Writing it would destroy or change what is read.
+    """
+    for out in filter(None, outputs):
+        for source in sources:
+            if out.exists() and source.exists() and out.samefile(source):
+                raise SettingError(f"{out}: this is what is read ({source}); give another name")
+            inside = source.is_dir() and source.resolve() in out.resolve().parents
+            if inside and out.suffix.lower() in {"", *RECORDINGS}:
+                raise SettingError(
+                    f"{out}: lies in the folder that is read ({source}), and would count as one of "
+                    "its recordings; give another place"
+                )
+
+
 def export_model(console: Console, model: Path, out: Path) -> None:
     """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
     check_output("--onnx", out, (".onnx",))
+    check_apart([model], out)
     difference = export_onnx(out, load(model))
     console.print(
         f"{out}: one step (x, u → y, u_next); "
@@ -54,5 +75,7 @@ def export_motions(console: Console, source: Path, out: Path, to: str | None) ->
         motions = Motions.read(source)
     except MotioneseError as error:
         raise type(error)(f"{error} (with motionese import, whose .npz can be exported)") from error
+    check_apart([source], out)
     motions.write(out, to)
     console.print(f"{out}: {description(motions)}")
+    tell_findings(console, motions.examined)

@@ -15,8 +15,8 @@ from rich.table import Table
 from motionese.channels import Channels
 from motionese.errors import ChannelError, unknown
 from motionese.interfaces.commands.initial_states import write_initial_states
-from motionese.interfaces.commands.outputs import RECORDINGS, check_output
-from motionese.interfaces.commands.summaries import number_table
+from motionese.interfaces.commands.outputs import RECORDINGS, check_apart, check_output
+from motionese.interfaces.commands.summaries import number_table, tell_findings
 from motionese.learning import Fit, Motions, RecognitionResult, load, read_for, recognise_all
 
 
@@ -43,12 +43,14 @@ def recognise_motions(
         check_output("--initial", initial, (".json",))
     if out is not None:
         check_output("--out", out, RECORDINGS)
+    check_apart([source, model], out, initial)
     fit = load(model)
     assert fit.network.channels is not None, "a trained network carries channels"
     names = fit.network.channels.names
     seen = list(names) if observed is None else matching_channels(fit.network.channels, observed)
     motions = read_for(fit, source, needed=seen, **reading)
     console.print(f"{source}: looked at {', '.join(seen)}")
+    tell_findings(console, motions.examined)
     found = _recognised(console, fit, motions.showing(seen), jax.random.key(seed))
     console.print(_table(fit, motions, found, seen))
     if initial is not None:

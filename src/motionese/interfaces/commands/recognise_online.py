@@ -16,9 +16,9 @@ from motionese.errors import MotionError, SettingError
 from motionese.files import write_whole
 from motionese.interfaces.commands.belief_figure import write_belief_figure
 from motionese.interfaces.commands.online_trace import OnlineTrace, table_of, trace
-from motionese.interfaces.commands.outputs import PICTURES, check_output
+from motionese.interfaces.commands.outputs import PICTURES, check_apart, check_output
 from motionese.interfaces.commands.recognise import matching_channels
-from motionese.interfaces.commands.summaries import number_table
+from motionese.interfaces.commands.summaries import number_table, tell_findings
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Motions, load, read_for, recognise_online
 
@@ -50,8 +50,7 @@ def recognise_online_motions(
     figure = out.with_suffix(".svg")
     check_output("--out", out, (".csv",))
     check_output("the figure of --out,", figure, PICTURES)
-    if out.exists() and source.exists() and out.samefile(source):
-        raise SettingError(f"--out {out}: this is the recording itself; give another name")
+    check_apart([source, model], out, figure)
     fit = load(model)
     channels = fit.network.channels
     assert channels is not None, "a trained network carries channels"
@@ -59,6 +58,7 @@ def recognise_online_motions(
     motions = read_for(fit, source, needed=seen, **reading).showing(seen)
     _check_window(source, motions, window)
     console.print(f"{source}: looked at {', '.join(seen)}")
+    tell_findings(console, motions.examined)
     traces = []
     with open_logs(logs, out, timeline="row") as log:
         for name, rows in _tracked(console, motions):

@@ -20,16 +20,20 @@ def import_recordings(
 ) -> None:
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
 
-    SOURCE is a CSV or a folder of them, a LeRobot folder, robomimic HDF5, an EIPL folder, a ROS
-    bag, MCAP with messages of JSON or ROS, or .npz that motionese wrote.
+    SOURCE is a CSV or a folder of them, a LeRobot folder, HDF5 of robomimic, ALOHA,
+    ManiSkill or D4RL or a folder of it, an EIPL folder, a ROS bag, MCAP with messages of JSON or
+    ROS, or .npz that motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
-        from motionese.interfaces.commands.summaries import description
+        from motionese.interfaces.commands.outputs import check_apart
+        from motionese.interfaces.commands.summaries import description, tell_findings
         from motionese.learning import Motions
 
+        check_apart([source], out)
         motions = Motions.read(source, **as_read(**reading))
         motions.write(out)
         console.print(f"{out}: {description(motions)}")
+        tell_findings(console, motions.examined)
 
 
 @with_recording_options("resample", "trim", "nan", "unit", "range", "margin")
@@ -57,7 +61,7 @@ def export(
     ] = None,
     to: Annotated[
         str | None,
-        Option(metavar=FORMATS.replace("rosbag|", ""), help="As what; else by the suffix of PATH."),
+        Option(metavar=FORMATS.removesuffix("|rosbag"), help="As what; else by PATH's suffix."),
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""

@@ -21,7 +21,7 @@ def _option(name: str, metavar: str, help: str, kind: Any, default: Any = None) 
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 
-FORMATS = "csv|npz|eipl|robomimic|lerobot|rosbag|mcap"
+FORMATS = "csv|npz|eipl|hdf5|lerobot|mcap|rosbag"
 STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
 LEAPS = "Where a channel leaps: nothing, a gap, an episode cut in two, or an error."
 OPTIONS = (

@@ -1,12 +1,16 @@
 """What is told in the terminal of motions and models: tables, and words."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
+from rich.console import Console
 from rich.table import Table
 
 from motionese.channels import Channels
 from motionese.learning import Fit, Motions
+from motionese.recordings import Finding
 from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
 
 GOOD, POOR = 0.03, 0.1
@@ -80,6 +84,12 @@ def share_beyond(motions: Motions) -> float:
     values, seen = np.concatenate(motions.values), np.concatenate(motions.observed)
     clipped = seen & ((values < lowest) | (values > highest))
     return int(clipped.sum()) / max(int(seen.sum()), 1)
+
+
+def tell_findings(console: Console, findings: Sequence[Finding]) -> None:
+    """Print what was found in a recording, a line each."""
+    for finding in findings:
+        console.print(f"! {finding.sentence}", soft_wrap=True)
 
 
 def description(motions: Motions) -> str:

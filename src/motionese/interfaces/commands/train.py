@@ -12,8 +12,8 @@ from rich.console import Console
 from motionese.errors import SettingError, StorageError, unknown
 from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.model_commands import checkpoint_of
-from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_output
-from motionese.interfaces.commands.summaries import description, error_table, verdict
+from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_apart, check_output
+from motionese.interfaces.commands.summaries import description, error_table, tell_findings, verdict
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Fit, Motions, Progress, Training, save, split, train
 from motionese.learning.training.training_state import epochs_done
@@ -52,16 +52,20 @@ def train_model(
         reading: How `source` is read, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
+    check_apart([source], out, checkpoint)
     context = read_levels(levels)
     motions = Motions.read(source, **reading)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
+    told = held_out is None and motions.set_apart
     drawn, noise = jax.random.split(jax.random.key(seed))
     network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
     done = epochs_done(checkpoint) if resume else 0
     console.print(f"{source}: {description(motions)}")
+    tell_findings(console, motions.examined)
     console.print(
         f"Levels io {len(motions.channels)}:{io_tau:g}, {levels}; {len(learned)} motions to learn, "
-        f"{len(unseen or ())} held out; Ctrl-C stops, --resume goes on"
+        f"{len(unseen or ())} held out{', as the file says' if told else ''}; "
+        "Ctrl-C stops, --resume goes on"
     )
     display = TrainingDisplay(console, settings.epochs, done)
     with open_logs(logs, out, done) as log, display:

@@ -82,7 +82,7 @@ def generate_sequence(
         path = from_here(state, dict(zip(channels.names, passing[0], strict=True)), rows + longest)
         path[:over] = _passed(passing[:over], path[:over])
         whole = np.concatenate([before, path])
-    return whole[:-longest]
+    return channels.held(whole[:-longest])
 
 
 def _speed(*paths: Float[ndarray, "_ D"]) -> Float[ndarray, " D"]:

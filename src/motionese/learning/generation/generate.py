@@ -38,7 +38,8 @@ def generate(
             its rows become more or fewer by as much.
 
     Returns:
-        The path in the channels' units. Row 0 is `first`, and y_0 where that is not given.
+        The path in the channels' units, binary channels held at their two values. Row 0 is
+        `first`, and y_0 where that is not given.
     """
     lasting = network if duration == 1.0 else network.lasting(duration)
     return _closed_loop(lasting, initial_state, steps, first)[0]
@@ -119,7 +120,7 @@ def _closed_loop(
         io = outputs[:, 0, : network.io_size]
         io[:] = np.where(given, sensed[:, 0], io)
     outputs = outputs.reshape(*start.shape[:-1], steps, network.size)
-    return channels.from_unit(outputs[..., : network.io_size]), outputs
+    return channels.held(channels.from_unit(outputs[..., : network.io_size])), outputs
 
 
 @eqx.filter_jit

@@ -96,7 +96,7 @@ class Motions:
 
     @classmethod
     def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
-        """Read recordings: csv, .npz, LeRobot, EIPL, robomimic, ROS bags, mcap; file or folder.
+        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, ROS bags, mcap; a file or a folder.
 
         Args:
             path: The file or folder.
@@ -130,7 +130,13 @@ class Motions:
             ranges=recording.ranges,
             names=[e.name for e in recording.episodes],
         )
-        return replace(motions, examined=recording.findings, held_out=recording.held_out)
+        channels = [replace(c, binary=recording.binary.get(c.name)) for c in motions.channels]
+        return replace(
+            motions,
+            channels=Channels(channels),
+            examined=recording.findings,
+            held_out=recording.held_out,
+        )
 
     def write(self, path: str | Path, format: str | None = None) -> None:
         """Write the motions without their weights, whole or not at all.
@@ -148,13 +154,21 @@ class Motions:
         ranges = {c.name: (c.low, c.high) for c in self.channels}
         rows = zip(self.names, self.values, self.observed, strict=True)
         kept = tuple(Episode(name, None, value, mask) for name, value, mask in rows)
-        recording = Recording(Path(path), names, units, ranges, self.rate_hz, kept, names)
+        binary = {c.name: c.binary for c in self.channels if c.binary is not None}
+        recording = Recording(
+            Path(path), names, units, ranges, self.rate_hz, kept, names, binary, self.set_apart
+        )
         write_recording(path, recording, format)
 
     @property
     def lengths(self) -> tuple[int, ...]:
         """Rows of every motion."""
         return tuple(len(v) for v in self.values)
+
+    @property
+    def set_apart(self) -> tuple[str, ...]:
+        """Names of the motions here that the recording sets apart for testing."""
+        return tuple(name for name in self.names if name in self.held_out)
 
     def chosen(self, which: Sequence[int | str]) -> "Motions":
         """Return the motions of these names or indices, in this order.

@@ -48,4 +48,5 @@ def runtime_model(fit: Fit) -> RuntimeModel:
         initial_states=dict(zip(fit.names, states, strict=True)),
         lengths=dict(zip(fit.names, fit.lengths, strict=True)),
         senses_first=network.initial_io == "sensed",
+        binary=np.array([channel.binary or (np.nan, np.nan) for channel in channels]),
     )

@@ -1,11 +1,11 @@
 """Folders of EIPL: `joints.npy` [N, T, J], in `train/` and `test/` or alone, all of one length.
 
-EIPL pads shorter episodes by repeating their last row; others pad with zeros or NaN. Rows at the
-end of an episode that are all zero or all NaN are cut, and of rows that are exactly the same up
-to the end one is kept. The trap: a robot that truly stands at its last row, to the last bit, or
-rests at zero in all joints, is cut as well.
+EIPL pads shorter episodes by repeating their last row; others pad with zeros or NaN. What is
+padding is cut, and told: see `eipl_padding`. The episodes in `test/` are held out.
 """
 
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,9 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.errors import RecordingError
+from motionese.recordings.finding import Finding
 from motionese.recordings.formats.conventions import UNREADABLE, why
+from motionese.recordings.formats.eipl_padding import recorded_lengths
 from motionese.recordings.formats.writing import check_even_and_whole, new_folder
 from motionese.recordings.recording import Episode, Recording
 
@@ -26,7 +28,8 @@ def read(path: Path) -> Recording:
     if not parts:
         raise RecordingError(f"{path}: holds no {JOINTS}, nor do its folders train and test")
     contents = [(part, *_part(part)) for part in parts]
-    channels, episodes = contents[0][1], []
+    channels = contents[0][1]
+    padded: dict[str, Float[ndarray, "_ D"]] = {}
     for part, names, rows in contents:
         if names != channels:
             raise RecordingError(
@@ -34,10 +37,15 @@ def read(path: Path) -> Recording:
                 f"in {parts[0].name} they are {', '.join(channels)}"
             )
         prefix = "" if part == path else f"{part.name}/"
-        for i, values in enumerate(rows):
-            episodes.append(Episode.whole(f"{prefix}{i}", np.array(values[: _length(values)])))
+        padded |= {f"{prefix}{i}": values for i, values in enumerate(rows)}
+    lengths = recorded_lengths(list(padded.values()))
+    cut = zip(padded.items(), lengths, strict=True)
+    episodes = tuple(Episode.whole(name, np.array(rows[:length])) for (name, rows), length in cut)
     ranges = _ranges(path, [c for c in channels if c.startswith("joint_")])
-    return Recording(path, channels, ("",) * len(channels), ranges, None, tuple(episodes), channels)
+    units = ("",) * len(channels)
+    found = Recording(path, channels, units, ranges, None, episodes, channels)
+    apart = tuple(name for name in padded if name.startswith("test/")) if len(parts) > 1 else ()
+    return replace(found, held_out=apart).found(*_cut(path, padded, lengths))
 
 
 def write(path: Path, recording: Recording) -> None:
@@ -78,13 +86,20 @@ def _part(folder: Path) -> tuple[tuple[str, ...], Float[ndarray, "N T D"]]:
     return names, np.concatenate(list(arrays.values()), axis=2, dtype=np.float64)
 
 
-def _length(values: Float[ndarray, "T D"]) -> int:
-    """Return how many rows of a padded episode were recorded."""
-    bits = np.ascontiguousarray(values).view(np.int64)
-    changed = np.flatnonzero((bits != bits[-1]).any(axis=1))
-    same = len(values) - (int(changed[-1]) + 1 if len(changed) else 0)
-    empty = np.isnan(values[-1]).all() or (same > 1 and not values[-1].any())
-    return len(values) - same + (0 if empty else 1)
+def _cut(
+    path: Path, padded: Mapping[str, Float[ndarray, "_ D"]], lengths: Sequence[int]
+) -> Iterable[Finding]:
+    """Yield, once, that rows were left out."""
+    cut = {n: len(rows) - k for (n, rows), k in zip(padded.items(), lengths, strict=True)}
+    cut = {name: rows for name, rows in cut.items() if rows}
+    if cut:
+        name = next(iter(cut))
+        what = (
+            f"{sum(cut.values())} rows at the ends of {len(cut)} of {len(padded)} episodes only "
+            "pad them to the length of the longest: left out"
+        )
+        remedy = f"give {path / name.rpartition('/')[0] / JOINTS} itself to keep them"
+        yield Finding("left out", path, what, remedy, name, row=len(padded[name]) - cut[name])
 
 
 def _ranges(path: Path, joints: list[str]) -> dict[str, tuple[float, float]]:

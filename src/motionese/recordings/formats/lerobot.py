@@ -1,6 +1,7 @@
-"""LeRobotDataset v3.0 and v2.1, read with pyarrow alone: no lerobot, no video decoded."""
+"""LeRobotDataset v3.0, v2.1 and v2.0, read with pyarrow alone: no lerobot, no video decoded."""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,10 +18,13 @@ from motionese.recordings.formats.lerobot_features import (
     Feature,
     Info,
     features_of,
+    features_told,
     read_info,
 )
 from motionese.recordings.formats.lerobot_writing import write
+from motionese.recordings.formats.set_apart import set_apart
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.told_rate import as_timed
 
 __all__ = ["read", "write"]
 
@@ -35,15 +39,15 @@ class _Rows(NamedTuple):
 
 
 def read(path: Path) -> Recording:
-    """Read the floating-point features of a LeRobotDataset; images and videos are left alone.
+    """Read the features of numbers of a LeRobotDataset; images and videos are left alone.
 
     Channels are named as in `lerobot_features.features_of`. Those of `observation.state` are
-    usual; of `action` where there is no state; else all.
+    usual; of `action` where there is no state; else all. Splits for testing are held out.
     """
     info = read_info(path)
     if not (features := features_of(info)):
         raise RecordingError(
-            f"{path}: no feature of dtype float32 or float64 and shape [n]; "
+            f"{path}: no feature of numbers of shape [n]; "
             f"there are: {', '.join(info.features) or 'none'}"
         )
     rows = _read_rows(path, features)
@@ -56,15 +60,20 @@ def read(path: Path) -> Recording:
             )
     by_key = {f.key: f.channels for f in features}
     channels = tuple(name for f in features for name in f.channels)
-    return Recording(
+    named = _names(info, rows)
+    held_out, findings = set_apart(path, _splits(info, named), tuple(named.values()))
+    recording = Recording(
         source=path,
         channels=channels,
         units=tuple(unit for f in features for unit in f.units),
         ranges={},
         rate_hz=info.fps,
-        episodes=tuple(_episodes(path, info, rows)),
+        episodes=tuple(_episodes(path, info, rows, named)),
         usual=by_key.get(STATE) or by_key.get(ACTION) or channels,
+        held_out=held_out,
+        findings=(*features_told(path, info), *findings),
     )
+    return as_timed(recording)
 
 
 def _read_rows(path: Path, features: tuple[Feature, ...]) -> _Rows:
@@ -103,7 +112,7 @@ def _matrix(file: Path, table: Any, key: str, width: int) -> Float[ndarray, "N n
     from pyarrow import compute, types  # noqa: PLC0415
 
     def is_number(kind: Any) -> bool:
-        return bool(types.is_floating(kind) or types.is_integer(kind))
+        return any(test(kind) for test in (types.is_floating, types.is_integer, types.is_boolean))
 
     cells = table.column(key).combine_chunks()
     nulls, lengths = cells.null_count, [1]
@@ -128,15 +137,32 @@ def _integers(path: Path, key: str, column: Float[ndarray, "N 1"]) -> Int[ndarra
     return np.asarray(column[:, 0], dtype=np.int64)
 
 
-def _episodes(path: Path, info: Info, rows: _Rows) -> Iterator[Episode]:
+def _names(info: Info, rows: _Rows) -> dict[int, str]:
+    """Return the names of the episodes by their index."""
+    told = dict(enumerate(info.episode_names))
+    indices = np.unique(rows.episode).tolist()
+    return {index: told.get(index, f"episode_{index:06d}") for index in indices}
+
+
+def _splits(info: Info, named: Mapping[int, str]) -> dict[str, list[str]]:
+    """Return the names of the episodes in every split that is told as "FIRST:END"."""
+    splits, found = info.splits if isinstance(info.splits, dict) else {}, {}
+    # However far a split goes on behind the last episode, one that is missing is enough to tell.
+    last = max(named, default=-1) + 1
+    for part, told in splits.items():
+        if span := re.fullmatch("([0-9]{1,18}):([0-9]{1,18})", str(told)):
+            indices = range(int(span[1]), min(int(span[2]), last + 1))
+            found[part] = [named.get(i, f"episode_{i:06d}") for i in indices]
+    return found
+
+
+def _episodes(path: Path, info: Info, rows: _Rows, named: Mapping[int, str]) -> Iterator[Episode]:
     indices, starts = np.unique(rows.episode, return_index=True)
-    names = dict(enumerate(info.episode_names))
     for index, start, end in zip(indices, starts, [*starts[1:], len(rows.episode)], strict=True):
         if len(wrong := np.flatnonzero(rows.frame[start:end] != np.arange(end - start))):
             raise RecordingError(
                 f"{path}: episode {index}: frame {wrong[0]} is missing; "
                 f"found frame_index {rows.frame[start + wrong[0]]} in its place"
             )
-        name = names.get(index, f"episode_{index:06d}")
         times = times_unless_even(rows.times[start:end], info.fps)
-        yield Episode.whole(name, rows.values[start:end], times)
+        yield Episode.whole(named[index], rows.values[start:end], times)

@@ -1,19 +1,24 @@
 """What a LeRobotDataset's meta/info.json says, and how its features become named channels."""
 
+import re
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
+from motionese.recordings.finding import Finding
 from motionese.recordings.formats.conventions import WIDEST, fault, numbered, strings
 
 STATE, ACTION = "observation.state", "action"
-VERSIONS = ("v3.0", "v2.1")
+VERSIONS = ("v3.0", "v2.1", "v2.0")
 """The versions of the format that are read."""
 BOOKKEEPING = ("timestamp", "frame_index", "episode_index", "index", "task_index")
 """Features that every dataset has and that are no channels."""
+FLOATS = re.compile("float(16|32|64)")
+NUMBERS = re.compile("bool|u?int(8|16|32|64)|float(16|32|64)")
 
 
 class _Loose(BaseModel):
@@ -46,6 +51,7 @@ class Info(_Loose):
     features: dict[str, FeatureInfo]
     total_episodes: int | None = None
     total_frames: int | None = None
+    splits: Any = None
     episode_names: tuple[str, ...] = ()
 
 
@@ -66,7 +72,7 @@ def read_info(path: Path) -> Info:
         if version not in VERSIONS:
             raise RecordingError(
                 f"{file}: codebase_version {version!r} is not read; "
-                f"LeRobotDataset {' and '.join(VERSIONS)} are"
+                f"LeRobotDataset {', '.join(VERSIONS)} are"
             )
         return Info.model_validate_json(content)
     except OSError as error:
@@ -78,7 +84,10 @@ def read_info(path: Path) -> Info:
 
 
 def features_of(info: Info) -> tuple[Feature, ...]:
-    """Return the features that are channels: floating point, of shape [n].
+    """Return the features that are channels: vectors [n] of floating-point numbers, and of others.
+
+    Whole numbers and truth values are channels among observations and actions; elsewhere they
+    count, or tell whether something is done.
 
     Channels of `observation.state` keep their plain names, all others are FEATURE.NAME
     (`action.elbow`). Columns without names are numbered: state_0, action_0, and plainly FEATURE
@@ -87,9 +96,7 @@ def features_of(info: Info) -> tuple[Feature, ...]:
     features: list[Feature] = []
     taken: set[str] = set()
     for key, told in info.features.items():
-        is_vector = len(told.shape) <= 1 and all(0 < n <= WIDEST for n in told.shape)
-        is_float = told.dtype in {"float32", "float64"}
-        if key in BOOKKEEPING or told.derived_from is not None or not (is_float and is_vector):
+        if not (_holds_numbers(key, told) and _is_vector(told)):
             continue
         width = told.shape[0] if told.shape else 1
         channels = _channels(key, _names(told.names, width), width)
@@ -98,6 +105,32 @@ def features_of(info: Info) -> tuple[Feature, ...]:
         taken |= set(channels)
         features.append(Feature(key, channels, strings(told.units, width) or ("",) * width))
     return tuple(features)
+
+
+def features_told(path: Path, info: Info) -> Iterator[Finding]:
+    """Yield what is to be known of features: left out, or their columns told apart."""
+    for key, told in info.features.items():
+        if not _holds_numbers(key, told):
+            continue
+        if not _is_vector(told) and len(told.shape) < 3:  # what has more dimensions is a picture
+            what = f"a feature of shape {[*told.shape]} is left out: no vector of up to {WIDEST}"
+            yield Finding("left out", path, what, channel=key)
+        elif _is_vector(told):
+            count = Counter(_names(told.names, told.shape[0] if told.shape else 1))
+            for name in [name for name, times in count.items() if times > 1]:
+                what = f"{count[name]} of its columns are called '{name}': told apart by number"
+                yield Finding("column", path, what, channel=key)
+
+
+def _holds_numbers(key: str, told: FeatureInfo) -> bool:
+    """Tell whether a feature is of numbers that are measured, and not computed from others."""
+    kinds = NUMBERS if key.startswith(("observation", ACTION)) else FLOATS
+    is_own = key not in BOOKKEEPING and told.derived_from is None
+    return is_own and kinds.fullmatch(told.dtype) is not None
+
+
+def _is_vector(told: FeatureInfo) -> bool:
+    return len(told.shape) <= 1 and all(0 < n <= WIDEST for n in told.shape)
 
 
 def _channels(key: str, names: tuple[str, ...] | None, width: int) -> tuple[str, ...]:

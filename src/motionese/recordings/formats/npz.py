@@ -14,10 +14,11 @@ from motionese.errors import RecordingError
 from motionese.recordings.formats.conventions import UNREADABLE, fault, why
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.told_rate import as_timed
 
 FORMAT, VERSION = "motionese-motions", 1
 METADATA = "metadata"
-SHARED = ("channels", "units", "ranges", "rate_hz", "usual")
+SHARED = ("channels", "units", "ranges", "rate_hz", "usual", "binary", "held_out")
 """What the metadata tell just as a recording does."""
 
 
@@ -32,6 +33,8 @@ class Metadata(BaseModel):
     rate_hz: float | None
     usual: tuple[str, ...]
     episodes: tuple[str, ...]
+    binary: Mapping[str, tuple[float, float]] = {}
+    held_out: tuple[str, ...] = ()
     format: str = FORMAT
     version: int = VERSION
 
@@ -39,11 +42,13 @@ class Metadata(BaseModel):
     def _consistent(self) -> "Metadata":
         if len(self.units) != len(self.channels):
             raise ValueError(f"{len(self.channels)} channels need as many units, got {self.units}")
-        if strange := {*self.usual, *self.ranges} - {*self.channels}:
+        if strange := {*self.usual, *self.ranges, *self.binary} - {*self.channels}:
             raise ValueError(f"there is no channel '{min(strange)}'")
+        if strange := {*self.held_out} - {*self.episodes}:
+            raise ValueError(f"there is no episode '{min(strange)}'")
         if self.rate_hz is not None and not 0 < self.rate_hz < math.inf:
             raise ValueError(f"a rate must be finite and > 0, got {self.rate_hz}")
-        for name, (low, high) in self.ranges.items():
+        for name, (low, high) in (*self.ranges.items(), *self.binary.items()):
             if not -math.inf < low < high < math.inf:
                 raise ValueError(f"channel '{name}' has no range from {low} to {high}")
         return self
@@ -63,7 +68,8 @@ def read(path: Path) -> Recording:
         raise RecordingError(
             f"{path}: not a whole file of motions that motionese wrote: {why(error)}"
         ) from error
-    return Recording(source=path, episodes=episodes, **metadata.model_dump(include={*SHARED}))
+    told = metadata.model_dump(include={*SHARED})
+    return as_timed(Recording(source=path, episodes=episodes, **told))
 
 
 def write(path: Path, recording: Recording) -> None:
