@@ -9,7 +9,7 @@ from motionese.errors import RecordingError, SettingError
 from motionese.recordings import FORMATS, read, write
 
 
-@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("name", [name for name, known in FORMATS.items() if known.written])
 def test_every_format_holds_values_units_and_names_that_it_has_a_place_for(whole, tmp_path, name):
     path = tmp_path / ("out" if name == "mcap" else f"out{next(iter(FORMATS[name].suffixes), '')}")
     write(path, whole, name)

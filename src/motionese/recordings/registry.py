@@ -8,7 +8,7 @@ from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
-from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npy, npz
+from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npy, npz, rosbag
 from motionese.recordings.nature import judged
 from motionese.recordings.recording import Recording
 
@@ -28,6 +28,7 @@ class Format:
         options: Which of `OPTIONS` its `read` takes.
         perhaps: Patterns of a file that a folder in this format holds if it is in no other.
         chosen: Whether its channels were chosen when it was written.
+        written: Whether the module has a `write`.
     """
 
     what: str
@@ -37,15 +38,26 @@ class Format:
     options: tuple[str, ...] = ()
     perhaps: tuple[str, ...] = ()
     chosen: bool = False
+    written: bool = True
 
 
 OPTIONS = {
     "episode": "the column that names the episode",
     "time": "the column that holds the time",
     "columns": "the names of columns without a header",
+    "topics": "the topics that are read",
+    "pause": "the silence that cuts a log into takes",
+    "marker": "the topic that marks the takes of a log",
 }
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
+BAGS = (
+    (".bag", ".db3", ".zstd", ".active"),
+    tuple(
+        f"{i}*{end}" for i in ("", "*/") for end in (".bag", ".db3", ".mcap", ".zstd", ".active")
+    ),
+)
+OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 HDF5 = Format(
     f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE
 )
@@ -57,12 +69,13 @@ FORMATS = {
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "hdf5": HDF5,
     "robomimic": HDF5,
-    "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
+    "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
     "csv": Format(
-        *(".csv or a folder of them", csv, csv.SUFFIXES, csv.patterns(csv.SURE), (*OPTIONS,)),
+        *(".csv or a folder of them", csv, csv.SUFFIXES, csv.patterns(csv.SURE), OF_TABLES),
         perhaps=csv.patterns(csv.SUFFIXES),
     ),
     "npy": Format(".npy or a folder of them", npy, (".npy",), ("*.npy",), ("columns",)),
+    "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")
@@ -111,11 +124,17 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     """
     path = Path(path)
     name = _named(format) or _by_suffix(path)
+    written = [n for n, f in FORMATS.items() if f.written]
     if name is None:
-        suffixes = dict.fromkeys(s for known in FORMATS.values() for s in known.suffixes)
+        suffixes = dict.fromkeys(s for n in written for s in FORMATS[n].suffixes)
         raise SettingError(
             f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
-            f"or name the format (--to), one of {', '.join(FORMATS)}"
+            f"or name the format (--to), one of {', '.join(written)}"
+        )
+    if name not in written:
+        raise RecordingError(
+            f"{path}: {FORMATS[name].what} is read, not written; "
+            f"--to is one of {', '.join(written)}"
         )
     FORMATS[name].module.write(path, _checked(recording))
 

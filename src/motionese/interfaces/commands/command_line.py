@@ -39,7 +39,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
 }
 SEVERAL = (
     *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
-    *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary"),
+    *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary", "--topic"),
     *("--observed", "--log", "--like", "--start"),
 )
 """Options that may be followed by several values."""

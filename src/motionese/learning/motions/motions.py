@@ -96,15 +96,16 @@ class Motions:
 
     @classmethod
     def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
-        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, or mcap; a file or a folder.
+        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, ROS bags, mcap; a file or a folder.
 
         Args:
             path: The file or folder.
             format: One of `recordings.FORMATS`; found from what is there where left out.
             given: Any of `recordings.OPTIONS`, which say what is what in a file: `episode`, `time`,
-                `columns`; and any of `recordings.Choice`: `channels`, `exclude`, `rate_hz`,
-                `resample_hz`, `trim`, `nan`, `units`, `ranges`, `margin`, `episodes`, `skip`,
-                `unwrap`, `quaternions`, `leaps`, `binary`, `strict`.
+                `columns` of tables, `topics`, `pause`, `marker` of logs; and any of
+                `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`, `trim`, `nan`,
+                `units`, `ranges`, `margin`, `episodes`, `skip`, `unwrap`, `quaternions`, `leaps`,
+                `binary`, `strict`.
 
         Raises:
             RecordingError: Nothing that can be read there, or a rate that is not told.
