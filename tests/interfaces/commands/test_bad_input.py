@@ -67,7 +67,7 @@ def bad_recordings():
         "flat.csv": "flat.csv: channel 'elbow' is always 0: give its range or leave it out",
         "empty.csv": "empty.csv: the file is empty",
         "header.csv": "header.csv: holds no rows below its header",
-        "binary.csv": "binary.csv: not a text file in UTF-8",
+        "binary.csv": "binary.csv: not a text file",
         "binary.npz": "binary.npz: ",
         "empty.npz": "empty.npz: ",
         "cut.npz": "cut.npz: ",
