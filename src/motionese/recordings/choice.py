@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import ChannelError, RecordingError, SettingError, unknown
+from motionese.recordings.finding import Finding
 from motionese.recordings.recording import Recording
 
 MARGIN = 0.05
@@ -104,6 +105,13 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         raise ChannelError(
             f"{recording.source}: no channel is left; there are: {', '.join(everything)}"
         )
+
+    def is_told(finding: Finding) -> bool:
+        """Tell whether it still matters: why a channel is not taken, unless the user says so."""
+        if finding.kind == "column" and finding.channel in everything:
+            return wanted is None and finding.channel not in dropped
+        return finding.channel not in everything or finding.channel in kept
+
     columns = [everything.index(c) for c in kept]
     units = {c: recording.units[i] for c, i in zip(kept, columns, strict=True)}
     for pattern, unit in choice.units.items():
@@ -115,7 +123,7 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         ranges={c: r for c, r in recording.ranges.items() if c in kept},
         binary={c: two for c, two in recording.binary.items() if c in kept},
         usual=kept,
-        findings=tuple(f for f in recording.findings if f.channel not in {*everything} - {*kept}),
+        findings=tuple(filter(is_told, recording.findings)),
     )
 
 
