@@ -146,11 +146,12 @@ def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[floa
 def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
     """Return the range of every channel: given by the user, told by the file, or of the data."""
     ranges, still, told = given_ranges(recording, choice), [], ""
+    seen = list(map(_extremes, recording.episodes))
     for column, name in enumerate(recording.channels):
         if name not in ranges:
-            seen = [_seen(e, column) for e in recording.episodes]
+            here = np.concatenate([each[column] for each in seen])
             try:
-                ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
+                ranges[name] = range_of(name, here, choice.margin)
             except ChannelError as error:
                 still.append(name)
                 told = told or str(error)
@@ -163,10 +164,12 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     return {name: ranges[name] for name in recording.channels}
 
 
-def _seen(episode: Episode, column: int) -> Float[ndarray, " K"]:
-    """Return what was observed of a channel."""
-    values, observed = np.ascontiguousarray(episode.values[:, column]), episode.observed[:, column]
-    return values if observed.all() else values[observed]
+def _extremes(episode: Episode) -> list[Float[ndarray, " K"]]:
+    """Return what was observed of every channel, or its lowest and highest alone."""
+    values, observed = episode.values, episode.observed
+    if len(values) and observed.all():
+        return list(np.stack([values.min(axis=0), values.max(axis=0)], axis=1))
+    return [column[seen] for column, seen in zip(values.T, observed.T, strict=True)]
 
 
 def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:

@@ -100,7 +100,8 @@ class Recording:
     def first(self, which: Callable[[Episode], Bool[ndarray, "T D"]]) -> tuple[str, float] | None:
         """Return in words where the first of certain cells is, and its value."""
         for episode in self.episodes:
-            for row, column in np.argwhere(which(episode)):
+            here = which(episode)
+            for row, column in np.argwhere(here) if here.any() else ():
                 where = f"episode '{episode.name}', row {row}, channel '{self.channels[column]}'"
                 return where, float(episode.values[row, column])
         return None

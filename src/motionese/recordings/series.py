@@ -28,17 +28,16 @@ class Series(NamedTuple):
     times: Float[ndarray, " K"]
 
 
-def series_of(recording: Recording, column: int) -> list[Series]:
-    """Return a channel's series in every episode."""
+def series_of(recording: Recording, column: int, every: int = 1) -> list[Series]:
+    """Return a channel's series in every episode, of all rows or of one in `every`."""
     series = []
     for episode in recording.episodes:
         # A column that lies together is gone through several times as fast.
-        values = np.ascontiguousarray(episode.values[:, column])
-        known = episode.observed[:, column] & (np.abs(values) <= LARGEST)
+        values = np.ascontiguousarray(episode.values[::every, column])
+        known = episode.observed[::every, column] & (np.abs(values) <= LARGEST)
         rows = np.flatnonzero(known)
-        times = rows.astype(np.float64) if episode.times is None else episode.times
-        if len(rows) < len(values):
-            values, times = values[rows], times if episode.times is None else times[rows]
+        values, rows = values if len(rows) == len(values) else values[rows], rows * every
+        times = rows.astype(np.float64) if episode.times is None else episode.times[rows]
         series.append(Series(rows, values, times))
     return series
 

@@ -98,6 +98,11 @@ class _Cells(NamedTuple):
     nan: Int[ndarray, " D"]
     infinite: Int[ndarray, " D"]
 
+    @property
+    def whole(self) -> bool:
+        """Whether all was observed and is finite."""
+        return not (self.unobserved.any() or self.nan.any() or self.infinite.any())
+
 
 class _Steps(NamedTuple):
     """Steps from row to row of every channel in one episode: sum, number, and how many are still.
@@ -125,7 +130,10 @@ def survey(recording: Recording) -> Survey:
     times = [e.times for e in episodes if e.times is not None]
     rising = [t for t in times if np.isfinite(t).all() and (np.diff(t) > 0).all()]
     rate = recording.rate_hz if recording.rate_hz is not None else rate_of_times(rising)
-    steps = [_steps(e, STILL_STEP * widths, usual) for e in episodes]
+    steps = [
+        _steps(e, STILL_STEP * widths, usual, whole=c.whole)
+        for e, c in zip(episodes, cells, strict=True)
+    ]
     return Survey(
         recording.source,
         rate,
@@ -148,7 +156,7 @@ def _episode(
 ) -> EpisodeNumbers:
     rows, times = len(episode.values), episode.times
     shown = episode.part(columns=usual)
-    if cells.nan.any() or cells.infinite.any():
+    if not cells.whole:
         shown = replace(shown, observed=shown.observed & np.isfinite(shown.values))
     start, end = still_ends(shown, limits[usual]) if usual else (0, 0)
     duration = None if rate is None else max(rows - 1, 0) / rate
@@ -222,17 +230,18 @@ def _cells(episode: Episode) -> _Cells:
     return _Cells(low, high, unobserved, nan, infinite)
 
 
-def _steps(episode: Episode, limits: Float[ndarray, " D"], usual: list[int]) -> _Steps:
+def _steps(
+    episode: Episode, limits: Float[ndarray, " D"], usual: list[int], *, whole: bool
+) -> _Steps:
     """Return the steps of an episode; still are those up to `limits`."""
     width = episode.values.shape[1]
     total, count, still = np.zeros(width), np.zeros(width, dtype=int), np.zeros(width, dtype=int)
     columns, together = np.isin(np.arange(width), usual), 0
     for rows in _blocks(len(episode.values), 1):
         values, observed = episode.values[rows], episode.observed[rows]
-        known = observed & np.isfinite(values)
         steps = np.abs(np.diff(values, axis=0))
-        whole = bool(known.all())
-        both = np.True_ if whole else known[1:] & known[:-1]
+        known = None if whole else observed & np.isfinite(values)
+        both = np.True_ if known is None else known[1:] & known[:-1]
         here = steps <= limits
         total += (steps if whole else np.where(both, steps, 0.0)).sum(axis=0)
         count += len(steps) if whole else both.sum(axis=0)

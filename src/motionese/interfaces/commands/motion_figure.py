@@ -21,7 +21,7 @@ LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.15, 0.65, 0.55
 """Around the panels [inch]: numbers, nothing, the titles, and the axis of time."""
 LEGEND, LEGEND_COLUMNS = 0.25, 4
 """Height of a line of names [inch], and how many stand in one."""
-POINTS = 300
+POINTS = 240
 """Pieces that an episode's rows are drawn in at most, each by its lowest and highest value."""
 LARGEST = 1e100
 """Beyond it values are gaps: an axis' arithmetic overflows."""
@@ -92,7 +92,8 @@ def _figure(
     height = rows * PANEL_HEIGHT + TOP + BOTTOM + legend
     # Panels that all hold the same need no layout that measures every text, which is most of the
     # time that a figure takes.
-    figure = Figure(figsize=(WIDTH, height), layout=None)
+    figure = Figure(figsize=(WIDTH, height))
+    figure.set_layout_engine("none")
     panels = figure.subplots(
         rows,
         columns,
@@ -109,7 +110,7 @@ def _figure(
     ).ravel()
     for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
         for i, motion in enumerate(paths):
-            shown, values = thinned(motion[:, column])
+            shown, values = thinned(np.ascontiguousarray(motion[:, column]))
             panel.plot(
                 shown / (rate_hz or 1.0),
                 np.where(np.abs(values) <= LARGEST, values, np.nan),

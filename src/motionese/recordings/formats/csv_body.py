@@ -7,15 +7,15 @@ is several times faster than Python's `csv` and `float`. What JSON and a table d
 
 import re
 from collections.abc import Iterator, Sequence
-from io import BufferedIOBase
+from io import SEEK_END, BufferedIOBase
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 from numpy import ndarray
 from pydantic_core import from_json
 
-CHUNK = 1 << 16
-"""Bytes read at a time: few enough to stay near the processor."""
+CHUNK, SPARE = 1 << 16, 1.02
+"""Bytes read at a time, few enough to stay near the processor; how much room is left for more."""
 EMPTY = re.compile(rb"(?<=[\[,])[ \t]*(?=[\],])")
 NAN, INFINITE = re.compile(rb"(?i)\bnan\b"), re.compile(rb"(?i)\binf(inity)?\b")
 
@@ -37,21 +37,37 @@ def read_body(
         None where any row is not plain.
     """
     words: list[list[str]] = [[] for _ in textual]
-    parts: list[tuple[Float[ndarray, " _"], Bool[ndarray, " _"]]] = []
-    narrow = width - len(textual)
+    narrow, cells = width - len(textual), 0
     if not narrow:
         return None
+    begin, whole = file.tell(), file.seek(0, SEEK_END)
+    file.seek(begin)
+    values, gaps = np.empty(0), np.empty(0, dtype=int)
     try:
         for lines in _chunks(file):
             plain = _without_text(_with_commas(lines, separator), width, textual, words)
-            parts.append(_parsed(plain, narrow))
+            found, empty = _parsed(plain, narrow)
+            if cells + len(found) > len(values):
+                # What was read so far tells how much there is, give or take.
+                share = (file.tell() - begin) / (whole - begin)
+                longer = np.empty(int((cells + len(found)) / share * SPARE) + narrow)
+                longer[:cells] = values[:cells]
+                values = longer
+            values[cells : cells + len(found)] = found
+            gaps = np.append(gaps, cells + empty) if len(empty) else gaps
+            cells += len(found)
     except (ValueError, TypeError, OverflowError, IndexError):
         return None
-    if not parts:
-        return None
-    values, seen = (np.concatenate(kind).reshape(-1, narrow) for kind in zip(*parts, strict=True))
+    seen = np.ones(cells, dtype=bool)
+    seen[gaps] = False
+    return _without_end(values[:cells].reshape(-1, narrow), seen.reshape(-1, narrow), words)
+
+
+def _without_end(
+    values: Float[ndarray, "N K"], seen: Bool[ndarray, "N K"], words: list[list[str]]
+) -> Body | None:
+    """Return rows without those at the end that are empty: spreadsheets write such lines."""
     rows = len(values)
-    # Spreadsheets end a table with lines of nothing but separators.
     while rows and not (seen[rows - 1].any() or any(column[rows - 1] for column in words)):
         rows -= 1
     return (values[:rows], seen[:rows], tuple(tuple(w[:rows]) for w in words)) if rows else None
@@ -81,6 +97,9 @@ def _with_commas(lines: bytes, separator: str) -> bytes:
     if separator != ",":
         if b"," in lines:
             raise ValueError("decimal commas")
+        padded = b"  " in lines or b"\n " in lines or b" \n" in lines
+        if separator == " " and (padded or lines[:1] == b" " or lines[-1:] == b" "):
+            raise ValueError("any number of blanks")
         lines = lines.replace(separator.encode(), b",")
     return lines
 
@@ -102,8 +121,8 @@ def _without_text(
     return b"\n".join(rows)
 
 
-def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Bool[ndarray, " _"]]:
-    """Return the numbers of rows, one after another, and what of them was observed.
+def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Int[ndarray, " _"]]:
+    """Return the numbers of rows, one after another, and which of them are empty cells.
 
     `ValueError` where they are not as many in every row, or no numbers.
     """
@@ -120,7 +139,5 @@ def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Bool[ndarra
     if (len(found) + 1) % (width + 1) or {*found[between]} - {""}:
         raise ValueError("rows of another width")
     del found[between]
-    seen = np.ones(len(found), dtype=bool)
-    if not whole:
-        seen[:] = [cell is not None for cell in found]
-    return np.fromiter(found, np.float64, len(found)), seen
+    empty = [] if whole else [i for i, cell in enumerate(found) if cell is None]
+    return np.fromiter(found, np.float64, len(found)), np.array(empty, dtype=int)
