@@ -112,7 +112,10 @@ WRONG = {
     "of none": (["demos.csv", "--range", "z=0:1"], "demos.csv: unknown channel 'z'"),
     "margin": (["demos.csv", "--margin", "-1"], "setting margin = -1"),
     "episode": (["demos.csv", "--episode", "no"], "demos.csv: unknown column 'no'"),
-    "of no table": (["data.npz", "--time", "t"], "data.npz: time is the column that holds the time, of csv"),
+    "of no table": (
+        ["data.npz", "--time", "t"],
+        "data.npz: time is the column that holds the time, of csv",
+    ),
 }
 
 
