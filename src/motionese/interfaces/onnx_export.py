@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import ChannelError, StorageError, needs
 from motionese.files import write_whole
 from motionese.learning import Fit
@@ -48,6 +49,7 @@ A channel's range low to high lies at 0.1 to 0.9 of the unit interval; x is clip
 The metadata entry 'motionese' (JSON) holds channels, rate, levels and initial states."""
 
 
+@refusing()
 def export_onnx(path: str | Path, trained: Fit | MTRNN) -> float:
     """Write one step of a network as an ONNX model, if it agrees with the network.
 

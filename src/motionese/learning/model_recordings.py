@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
@@ -15,6 +16,7 @@ from motionese.learning.recognition.recognise import SAME_RATE
 from motionese.recordings import OPTIONS, choose, chosen, prepare, read
 
 
+@refusing()
 def read_for(
     fit: Fit,
     path: str | Path,

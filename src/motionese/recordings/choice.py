@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import ChannelError, SettingError, unknown
+from motionese.errors import ChannelError, SettingError, kind_of, unknown
 from motionese.recordings.recording import Recording
 
 MARGIN = 0.05
@@ -84,7 +84,7 @@ def choose(**given: Any) -> Choice:
             raise SettingError(unknown("setting", name, Choice.model_fields)) from error
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name} = {first['input']!r}: {what}") from error
+        raise SettingError(f"setting {name} = {kind_of(first['input'])}: {what}") from error
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import jax
-from pydantic import ValidationError
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
@@ -124,13 +123,7 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
         if name == "learned":
             given[name] = told.split(",")
-    try:
-        return Training(**given)
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = str(first["loc"][0])
-        what = first["msg"][:1].lower() + first["msg"][1:]
-        raise SettingError(f"setting {name} = {given[name]!r}: {what}") from error
+    return Training(**given)
 
 
 def read_held_out(text: str | None, motions: Motions) -> float | list[str] | None:
