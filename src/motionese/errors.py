@@ -61,8 +61,8 @@ LONGEST_TOLD = 60
 """Characters of what was given, beyond which only its type is told."""
 NO_MOTION = "the model has learned no motion yet; train it on motions first"
 HELD_OUT = (
-    "was held out of the training, so the model has no initial states of it; recognising it finds "
-    "them (motionese recognise … --initial FILE, then generate … --initial FILE)"
+    "was held out of the training, so the model has no initial states of it: recognise finds them "
+    "(--initial FILE writes them there), and generate --initial FILE goes on from them"
 )
 CHECKPOINT_BEFORE = (
     "a checkpoint of an experiment made by motionese 0.1 before checkpoints were models: "

@@ -1,6 +1,7 @@
 """Recordings for a trained model: its channels, in its order, at its rate."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
 from motionese.learning.motions.motions import Motions
 from motionese.learning.recognition.recognise import SAME_RATE
-from motionese.recordings import OPTIONS, choose, chosen, prepare, read
+from motionese.recordings import OPTIONS, Finding, Recording, choose, chosen, prepare, read
 
 
 @refusing()
@@ -28,17 +29,17 @@ def read_for(
     """Read recordings as motions over a model's channels, in its order, with its ranges.
 
     A channel that is not needed may be missing; it is then not observed. Columns that are no
-    channel of the model are left aside.
+    channel of the model are left aside; those in another order are put into the model's.
 
     Args:
         fit: The model.
         path: The file or folder.
-        needed: Channels that must be there; all where left out.
+        needed: Channels that must be there; where left out, any one of the model's.
         format: As `Motions.read` takes it.
         given: What else `Motions.read` takes; ranges are the model's.
 
     Raises:
-        ChannelError: A needed channel is missing, or they stand in another order.
+        ChannelError: A needed channel is missing, or all are.
         RecordingError: Another rate than the model's, or what `Motions.read` refuses.
     """
     channels = fit.network.channels
@@ -49,21 +50,16 @@ def read_for(
     taken = {"channels": wish.channels or found.channels, "exclude": wish.exclude}
     present = chosen(found, choose(**taken)).channels
     own = tuple(name for name in present if name in channels.names)
-    needed = channels.names if needed is None else needed
-    missing = [name for name in needed if name not in own]
-    if missing:
+    missing = [name for name in needed or channels.names if name not in own]
+    if missing and (needed is not None or not own):
         raise ChannelError(
-            f"{path}: the model's channel '{missing[0]}' is missing; "
-            f"the model needs {', '.join(needed)}, here are {', '.join(own) or 'none of them'}"
+            f"{path}: the model's channel '{missing[0]}' is missing; the model needs "
+            f"{', '.join(needed or channels.names)}, here are {', '.join(own) or 'none of them'}"
         )
     order = tuple(name for name in channels.names if name in own)
-    if own != order:
-        raise ChannelError(
-            f"{path}: its channels stand in another order than the model's: "
-            f"{', '.join(own)}; name them in the model's: --channels {','.join(order)}"
-        )
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
-    ready = prepare(found, choose(**{**given, "channels": own, "exclude": (), "ranges": ranges}))
+    found = found.found(*_compared(found, own, order, missing))
+    ready = prepare(found, choose(**{**given, "channels": order, "exclude": (), "ranges": ranges}))
     motions = Motions.from_recording(ready)
     if abs(motions.rate_hz - fit.rate_hz) > SAME_RATE * fit.rate_hz:
         raise RecordingError(
@@ -71,6 +67,20 @@ def read_for(
             f"{fit.rate_hz:g}; resample it to that (--resample {fit.rate_hz:g})"
         )
     return _widened(motions, channels)
+
+
+def _compared(
+    found: Recording, own: Sequence[str], order: Sequence[str], missing: Sequence[str]
+) -> list[Finding]:
+    """Return what a recording's channels have to do with the model's."""
+    findings = []
+    if own != order:
+        told = f"its channels are {', '.join(own)}; taken in the model's order {', '.join(order)}"
+        findings.append(Finding("converted", found.source, told))
+    if missing:
+        count, told = len(missing), "a channel of the model, not in the recording; not looked at"
+        findings.append(Finding("left out", found.source, told, channel=missing[0], count=count))
+    return findings
 
 
 def _widened(motions: Motions, channels: Channels) -> Motions:
@@ -84,4 +94,5 @@ def _widened(motions: Motions, channels: Channels) -> Motions:
 
     values, masks = (list(map(widened, each)) for each in (motions.values, motions.observed))
     rate, names = motions.rate_hz, motions.names
-    return Motions.from_arrays(values, channels, rate, observed=masks, names=names)
+    widest = Motions.from_arrays(values, channels, rate, observed=masks, names=names)
+    return replace(widest, examined=motions.examined, held_out=motions.held_out)
