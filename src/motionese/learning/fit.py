@@ -1,7 +1,7 @@
 """What training leaves: a network, the initial states of its motions, and how good they are."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -53,6 +53,16 @@ class Fit:
     def memory(self) -> Memory:
         """The motions it learned, as recognition starts from them."""
         return Memory(self.names, self.initial_states, self.closed_loop_error)
+
+    def after(self, earlier: "Fit") -> "Fit":
+        """Return the fit of a training that went on from an earlier fit, with all its losses."""
+        before = len(earlier.losses)
+        return replace(
+            self,
+            losses=np.concatenate([earlier.losses, self.losses]),
+            validation_losses=np.concatenate([earlier.validation_losses, self.validation_losses]),
+            status=replace(self.status, sentence=f"{self.status.sentence}, after {before} before"),
+        )
 
     @refusing()
     def index(self, motion: str | int) -> int:

@@ -71,8 +71,8 @@ def read_observed(
     assert channels is not None, "a trained network carries channels"
     needed = None if observed is None else matching_channels(channels, observed)
     motions = read_for(fit, source, needed=needed, **reading)
-    there = np.concatenate(motions.observed).any(axis=0)
-    seen = [name for name, some in zip(channels.names, there, strict=True) if some]
+    there = np.flatnonzero(np.concatenate(motions.observed).any(axis=0))
+    seen = [channels.names[column] for column in there]
     absent = [name for name in channels.names if name not in seen]
     told = f"; not in the recording: {', '.join(absent)}" if absent and needed is None else ""
     seen = seen if needed is None else needed

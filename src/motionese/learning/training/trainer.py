@@ -218,6 +218,17 @@ def make_trainer(
     )
 
 
+def origin_of(
+    network: MTRNN | Fit,
+    motions: Motions,
+    settings: Training,
+    validation: Motions | None,
+    key: Array,
+) -> dict[str, str]:
+    """Return what a training must agree on to go on, whatever the number of its epochs."""
+    return make_trainer(network, motions, 1, settings, None, {}, validation, key, None).origin
+
+
 def _states(
     network: MTRNN, motions: int, count: int, given: Float[ndarray, "S N"] | None
 ) -> Float[Array, "C N"]:
