@@ -72,7 +72,7 @@ class RuntimeModel:
     def named(self, motion: str | int) -> str:
         """Return the name of a learned motion by its name or place; `ControlError` if none is."""
         names = list(self.initial_states)
-        return names[place_of("motion", motion, names, ControlError)]
+        return names[place_of("initial state", motion, names, ControlError)]
 
     def initial(self, motion: str | int) -> ndarray:
         """Return a learned motion's u_0 [N]; `ControlError` for one that is not there."""

@@ -7,14 +7,12 @@ from numbers import Integral
 import numpy as np
 from numpy import ndarray
 
-from motionese.arguments import refusing
 from motionese.errors import ControlError
 from motionese.minimum_jerk import transition_rows
 from motionese.runtime.model import RuntimeModel
 from motionese.runtime.player import Blend, Player
 
 
-@refusing(ControlError)
 @dataclass(frozen=True, eq=False)
 class Part:
     """One motion of several.
