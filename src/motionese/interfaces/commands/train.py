@@ -21,7 +21,16 @@ from motionese.interfaces.commands.training_start import (
     read_begun,
 )
 from motionese.interfaces.logs.training_logs import open_logs
-from motionese.learning import Fit, Motions, Progress, Training, split, train, write_fit
+from motionese.learning import (
+    Fit,
+    Motions,
+    Progress,
+    Training,
+    diagnose,
+    split,
+    train,
+    write_fit,
+)
 from motionese.learning.training.trainer import origin_of
 from motionese.network import MTRNN, Level, network_of
 
@@ -103,11 +112,12 @@ def train_model(
             progress=progress,
             checkpoint=checkpoint,
         )
+    shown = diagnose(fit, learned, settings.teacher_forcing)
     fit = fit if start.earlier is None else fit.after(start.earlier)
     write_fit(out, fit, {}, {ORIGIN: origin})
     checkpoint.unlink(missing_ok=True)  # not before: what was learned is in one of the two files
     console.print(error_table(fit))
-    console.print(verdict(fit))
+    console.print(verdict(fit, shown))
     console.print(f"{fit.status}. The model is {out}")
     if fit.status.failed:
         raise SettingError(f"{out}: {fit.status}; train with smaller rates, --set weight_rate=0.01")
