@@ -89,7 +89,7 @@ def test_ways_of_their_own_hardly_fork():
     assert forks(reaches()) <= 1.5  # where all begin
     assert forks(reaches(hold=3)) <= 1.5  # however long they rest there
     assert forks(family()) <= 1.5
-    assert forks(reaches(count=1)) == 0
+    assert forks(curves(count=1)) == 0
 
 
 def test_an_order_of_two_forks_once_more():
