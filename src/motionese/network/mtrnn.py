@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
 from motionese.network.levels import Level, named
@@ -89,6 +90,7 @@ class MTRNN(eqx.Module):
                 raise SettingError(f"{name} must have shape {shape}, got {got}")
 
     @classmethod
+    @refusing()
     def draw(
         cls,
         levels: Sequence[Level],
@@ -114,6 +116,8 @@ class MTRNN(eqx.Module):
         """
         if not (math.isfinite(gain) and gain >= 0):
             raise SettingError(f"the gain of the initial weights must be ≥ 0, got {gain}")
+        if not levels:
+            raise SettingError("an MTRNN has the level io and at least one context, got none")
         levels = named(levels)
         sizes = tuple(level.size for level in levels)
         weights = draw_weights(sizes, gain, scale, key)

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import ChannelError, RecordingError, SettingError, unknown
+from motionese.errors import ChannelError, RecordingError, SettingError, kind_of, unknown
 from motionese.recordings.finding import Finding
 from motionese.recordings.recording import Recording
 
@@ -86,7 +86,7 @@ def choose(**given: Any) -> Choice:
             raise SettingError(unknown("setting", name, Choice.model_fields)) from error
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name} = {first['input']!r}: {what}") from error
+        raise SettingError(f"setting {name} = {kind_of(first['input'])}: {what}") from error
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:
