@@ -69,7 +69,7 @@ def bad_recordings():
         "empty.csv": "empty.csv: the file is empty",
         "header.csv": "header.csv: holds no rows below its header",
         "values.csv": "values.csv, line 3, column 'column_1': expected a number, got 'wave'",
-        "binary.csv": "binary.csv: not a text file in UTF-8",
+        "binary.csv": "binary.csv: not a text file (byte 128)",
         "binary.npz": "binary.npz: ",
         "empty.npz": "empty.npz: ",
         "cut.npz": "cut.npz: ",
