@@ -50,6 +50,7 @@ def check_both_ways(path, rows, ending, separator, ended):
 @BODIES
 @example([["1", "2", ""], ["3"]], "\n", ",", True)
 @example([["1", ""], ["", "2"]], "\n", ",", False)
+@example([["", "", "true", "0"], ["", "", ""]], "\n", ",", False)
 def test_both_ways_agree(tmp_path, rows, ending, separator, ended):
     check_both_ways(tmp_path / "table.csv", rows, ending, separator, ended)
 

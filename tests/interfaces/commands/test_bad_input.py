@@ -48,6 +48,7 @@ def bad_recordings():
     text = {
         "empty.csv": b"",
         "header.csv": b"episode,time,x\n",
+        "values.csv": b"0.1,0.2\n0.3,0.4\n0.5,wave\n",
         "binary.csv": bytes(range(256)),
         "binary.npz": bytes(range(256)),
         "empty.npz": b"",
@@ -67,7 +68,8 @@ def bad_recordings():
         "flat.csv": "flat.csv: channel 'elbow' is always 0: give its range or leave it out",
         "empty.csv": "empty.csv: the file is empty",
         "header.csv": "header.csv: holds no rows below its header",
-        "binary.csv": "binary.csv: not a text file",
+        "values.csv": "values.csv, line 3, column 'column_1': expected a number, got 'wave'",
+        "binary.csv": "binary.csv: not a text file (byte 128)",
         "binary.npz": "binary.npz: ",
         "empty.npz": "empty.npz: ",
         "cut.npz": "cut.npz: ",

@@ -21,7 +21,7 @@ def _option(name: str, metavar: str, help: str, kind: Any, default: Any = None) 
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 
-FORMATS = "csv|npz|eipl|hdf5|lerobot|mcap|rosbag"
+FORMATS = "csv|npz|npy|eipl|hdf5|lerobot|mcap|rosbag"
 STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
 LEAPS = "Where a channel leaps: nothing, a gap, an episode cut in two, or an error."
 OPTIONS = (
@@ -30,7 +30,12 @@ OPTIONS = (
     _option("format", FORMATS, "What SOURCE is; else found out.", Text),
     _option("episodes", "NAMES …", "Episodes to take: 0-9 'pick*'.", Texts),
     _option("skip", "NAMES …", "Episodes to leave out.", Texts),
-    _option("columns", "NAMES …", "Names of the columns of a table without a header.", Texts),
+    _option(
+        "columns",
+        "NAMES …",
+        "Names of the columns of a table without a header, or of an array.",
+        Texts,
+    ),
     _option("episode", "COLUMN", "The column of a CSV that names the episode.", Text),
     _option("time", "COLUMN", "The column of a CSV that is the time.", Text),
     _option("topic", "PATTERN …", "Topics of a bag or MCAP to read.", Texts),

@@ -115,6 +115,8 @@ def _without_text(
     rows = []
     for line in lines.split(b"\n"):
         cells = line.split(b",", last)
+        if len(cells) != min(last + 1, width):
+            raise ValueError("rows of another width")
         for column, found in zip(textual, words, strict=True):
             found.append(cells[column].decode().strip())
         rows.append(b",".join([cells[i] for i in kept]))
@@ -132,6 +134,9 @@ def _parsed(lines: bytes, width: int) -> tuple[Float[ndarray, " _"], Int[ndarray
     try:
         found = from_json(text)
     except ValueError:
+        # An empty line is no row with an empty cell.
+        if width == 1:
+            raise
         whole = False
         text = NAN.sub(b"NaN", INFINITE.sub(b"Infinity", EMPTY.sub(b"null", text)))
         found = from_json(text)
