@@ -81,7 +81,11 @@ def _check(
     kwargs: Mapping[str, Any],
     error: Refusal,
 ) -> None:
-    for argument, given in form.bind(*args, **kwargs).arguments.items():
+    try:
+        arguments = form.bind(*args, **kwargs).arguments
+    except TypeError as wrong:
+        raise error(f"{name}: {wrong}") from wrong
+    for argument, given in arguments.items():
         hint, several = hints.get(argument, Any), form.parameters[argument].kind
         each = given if several is several.VAR_POSITIONAL else [given]
         if several is several.VAR_KEYWORD:

@@ -149,6 +149,12 @@ def test_a_sentence_says_what_was_got_and_what_is_taken(unchecked):
         (lambda: mo.train(NETWORK, ARRAYS), "train: motions must be a Motions, got list of 3"),
         (lambda: mo.MTRNN.draw(LEVELS, key=0), "key must be a JAX random key such as jax"),
         (lambda: mo.recognise(FIT, "wave"), "motion must be a Motions or an array of numbers"),
+        (
+            lambda: mo.generate(FIT, step=5),
+            "generate: missing a required argument: 'initial_state'",
+        ),
+        (lambda: mo.MTRNN(LEVELS), "draw: key must be a JAX random key such as jax"),
+        (lambda: mo.MTRNN(weights=np.eye(2)), "is drawn from levels and a key, MTRNN.draw(levels,"),
         (lambda: mo.Training(epoch=5), "unknown setting 'epoch'; did you mean 'epochs'?"),
         (lambda: mo.Training(epochs="many"), "setting epochs = 'many': input should be a valid"),
     ):
@@ -195,3 +201,12 @@ def test_a_number_that_might_mean_two_motions_is_refused(unchecked):
         fit.index(5)
     with pytest.raises(MotioneseError, match="held_out must be a number or a list"):
         mo.split(DATA, held_out=[True])
+
+
+def test_a_network_is_drawn_by_its_own_name_too():
+    for one, other in zip(
+        jax.tree.leaves(mo.MTRNN(LEVELS, key=KEY, variance=True)),
+        jax.tree.leaves(mo.MTRNN.draw(LEVELS, key=KEY, variance=True)),
+        strict=True,
+    ):
+        np.testing.assert_array_equal(one, other)
