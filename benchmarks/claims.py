@@ -1,0 +1,104 @@
+"""Whether a robot that says "I can do this" can do it.
+
+A person's hand shows 20 motions to each robot: every sequence of up to three strokes and two of
+four, on ways that stray by 0.3 to 1.5 cm. The robot says whether it can do what it saw, and then
+tries: a claim is right if the imitation misses by no more than 2 cm and presses every button that
+is due. Beside the trained robots of run folders, each as its last loop left it, those of the same
+seeds are asked before they have learned anything.
+
+    motionese reproduce --preset order --conditions TD/MD --seeds 13-17 --out runs/claims
+    python benchmarks/claims.py runs/claims
+"""
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from motionese.one_core import one_core
+
+os.environ.update(one_core())
+
+import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
+from rich.console import Console
+from rich.table import Table
+
+from motionese.experiment.learned_robot import robot_of
+from motionese.imitation import Learner, Scene, babbled, newborn
+from motionese.task import PrimitiveSequence, Task
+from motionese.teaching.session import Teaching
+
+FOUR = ("UR ↓↑←↓", "LR ↑←↓↑")
+STRAYS_CM = (0.3, 1.5)
+RIGHT = 0.9
+
+
+def motions(task: Task) -> list[PrimitiveSequence]:
+    """Return the 20 motions that are shown."""
+    three = [s for length in (1, 2, 3) for s in task.sequences(length)]
+    return three + [task.sequence(name) for name in FOUR]
+
+
+def hand(
+    way: Float[ndarray, "T 3"], rng: np.random.Generator, strays_cm: float
+) -> Float[ndarray, "T 3"]:
+    """Return a hand's path [m] along a way: shifted, tilted, scaled, bowed, with a tremor."""
+    middle, along = way.mean(axis=0), np.linspace(0, np.pi, len(way))
+    off = (way - middle) @ rng.normal(0, 0.15, (3, 3)) + rng.normal(0, 0.01, 3)
+    for wave in (1, 2, 3):
+        off += np.sin(wave * along)[:, None] * rng.normal(0, 0.01 / wave, 3)
+    off += rng.normal(0, 0.001, way.shape)
+    return way + off * strays_cm / 100 / np.sqrt((off**2).sum(axis=1).mean())
+
+
+def claims(scene: Scene, learner: Learner) -> Iterator[tuple[bool, bool]]:
+    """Yield for every motion whether the robot claims to be able to do it, and whether it is."""
+    rng, caregiver = np.random.default_rng(scene.seed), scene.caregiver()
+    for sequence in motions(scene.task):
+        way = caregiver.demonstrate(sequence, rng).path
+        path = scene.body.reachable(hand(way, rng, rng.uniform(*STRAYS_CM)))
+        teaching = Teaching(scene, learner)  # that has not tried anything
+        claimed = teaching.show(path, "drawn").verdict.claim.made
+        yield claimed, teaching.imitate().result.good
+
+
+def measured(kind: str, asked: list[tuple[bool, bool]]) -> list[str]:
+    """Return a row of the table."""
+    claimed, can = np.array(asked).T
+    right, able = int((claimed & can).sum()), int(can.sum())
+    shares = [f"{right / n:.0%}" if n else "–" for n in (int(claimed.sum()), able)]
+    return [kind, str(len(can)), str(able), str(int(claimed.sum())), str(right), *shares]
+
+
+def main(folders: list[Path]) -> None:
+    """Ask all robots, print."""
+    console, table = Console(markup=False), Table(title="“I can do this”")
+    for heading in ("robot", "motions", "it can do", "claims", "right", "of claims", "recall"):
+        table.add_column(heading, justify="right" if table.columns else "left")
+    pooled: dict[str, list[tuple[bool, bool]]] = {}
+    runs = [run for folder in folders for run in sorted(folder.glob("*/seed-*"))]
+    for run in runs:
+        robot = robot_of(run)
+        scene = Scene(robot.settings, robot.seed)
+        kinds = {
+            "newborn": newborn(scene, 2),
+            "babbled": babbled(scene, newborn(scene, 2)),
+            "trained": robot.learner,
+        }
+        for kind, learner in kinds.items():
+            asked = list(claims(scene, learner))
+            pooled.setdefault(kind, []).extend(asked)
+            table.add_row(*measured(f"{kind}, seed {robot.seed}", asked))
+    table.add_section()
+    for kind, asked in pooled.items():
+        table.add_row(*measured(f"{kind}, all", asked))
+    console.print(table)
+    console.print(f"to be right: 0 claims of newborns, ≥ {RIGHT:.0%} of those of trained robots")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    main([Path(argument) for argument in sys.argv[1:]])
