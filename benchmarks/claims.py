@@ -18,10 +18,10 @@ from pathlib import Path
 from motionese.one_core import one_core
 
 os.environ.update(one_core())
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 import numpy as np
-from jaxtyping import Float
-from numpy import ndarray
+from hands import straying
 from rich.console import Console
 from rich.table import Table
 
@@ -41,24 +41,12 @@ def motions(task: Task) -> list[PrimitiveSequence]:
     return three + [task.sequence(name) for name in FOUR]
 
 
-def hand(
-    way: Float[ndarray, "T 3"], rng: np.random.Generator, strays_cm: float
-) -> Float[ndarray, "T 3"]:
-    """Return a hand's path [m] along a way: shifted, tilted, scaled, bowed, with a tremor."""
-    middle, along = way.mean(axis=0), np.linspace(0, np.pi, len(way))
-    off = (way - middle) @ rng.normal(0, 0.15, (3, 3)) + rng.normal(0, 0.01, 3)
-    for wave in (1, 2, 3):
-        off += np.sin(wave * along)[:, None] * rng.normal(0, 0.01 / wave, 3)
-    off += rng.normal(0, 0.001, way.shape)
-    return way + off * strays_cm / 100 / np.sqrt((off**2).sum(axis=1).mean())
-
-
 def claims(scene: Scene, learner: Learner) -> Iterator[tuple[bool, bool]]:
     """Yield for every motion whether the robot claims to be able to do it, and whether it is."""
     rng, caregiver = np.random.default_rng(scene.seed), scene.caregiver()
     for sequence in motions(scene.task):
         way = caregiver.demonstrate(sequence, rng).path
-        path = scene.body.reachable(hand(way, rng, rng.uniform(*STRAYS_CM)))
+        path = scene.body.reachable(straying(way, rng, rng.uniform(*STRAYS_CM)))
         teaching = Teaching(scene, learner)  # that has not tried anything
         claimed = teaching.show(path, "drawn").verdict.claim.made
         yield claimed, teaching.imitate().result.good

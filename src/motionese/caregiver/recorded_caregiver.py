@@ -120,7 +120,7 @@ def _read(
     try:
         sequence = task.sequence(_SEVERAL.sub("", episode.name))
     except TaskError as error:
-        raise TaskError(f"is named by no sequence of {task.name}: {error}") from error
+        raise TaskError(f"is named by no sequence of {task.name}") from error
     near = body.reachable(episode.values)
     miss = 100 * float(np.linalg.norm(near - episode.values, axis=1).max())
     if not miss <= REACHABLE_CM:
