@@ -5,7 +5,7 @@ import pytest
 
 from motionese.caregiver import SOMETHING_ELSE, intended_way
 from motionese.task import PUSHING_BUTTONS, SHAPES
-from motionese.teaching.claim import EXPECTED_CM, FORETOLD_CM, Claim
+from motionese.teaching.claim import FORETOLD_CM, Claim
 from motionese.teaching.recogniser import start_of
 from motionese.teaching.result import WELL_CM, Push, Result
 from motionese.teaching.verdict import Verdict, seen_in_words
@@ -31,8 +31,8 @@ def advice(tried):
     ("given", "said"),
     [
         ({}, "I can do this."),
-        ({"foretold": FORETOLD_CM + 0.1}, "I did not know how it goes on"),
-        ({"expected": EXPECTED_CM + 0.1}, "I expect to miss by 1.9 cm"),
+        ({"foretold": FORETOLD_CM + 0.1}, "it went on 5.1 cm from what I expected"),
+        ({"expected": WELL_CM + 0.1}, "I expect to miss by 2.1 cm"),
         ({"expected": np.inf}, "I have never moved"),
         ({"missed": ("the left button",)}, "I expect to miss the left button"),
         ({"tried": Result(1.0, (PRESSED,))}, "I can do this."),

@@ -280,6 +280,7 @@ class Teaching:
         watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
         interpretation = self.recogniser.at_the_end(watched)
         claim_on(watched, sequence, self.recogniser, interpretation)
+        self.seen(watched.path)
         if (online := self.recogniser.online()) is not None:
             online.observe(watched)
         state = interpretation.state

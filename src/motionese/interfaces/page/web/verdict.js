@@ -37,15 +37,17 @@ export function showVerdict({ motion, seen, sentence, claim }) {
   part("verdict").classList.remove("tentative");
   say(part("verdict-label"), "The robot saw");
   showSeen(seen, motion);
-  const { made: claimed, foretold_cm: foretold, expected_cm: expected } = claim;
-  const expects = expected === null ? "" : `, its try by ${cm(expected)}`;
-  showClaim(claimed ? "Yes, it says" : "Not yet, it says", `Expects to be off: end ${cm(foretold)}${expects}`);
+  const { made: claims, foretold_cm: foretold, expected_cm: expected } = claim;
+  const expects = expected === null ? "" : `; expects to miss by ${cm(expected)}`;
+  showClaim(claims ? "Yes, it says" : "Not yet, it says", `Foretold the end to ${cm(foretold)}${expects}`);
   say(part("verdict-spoken"), read(motion).start ? `${inWords(motion)}. ${sentence}` : sentence);
 }
 
 /** Show what a try has come to. */
-export function showResult({ good, sentence }) {
-  showClaim(good ? "Yes, it did" : "Not yet", sentence);
+export function showResult({ good, error_cm: error, pushes }) {
+  const done = pushes.filter((push) => push.made).length;
+  const pressed = pushes.length ? `, pressed ${done} of ${pushes.length}` : "";
+  showClaim(good ? "Yes, it did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
 }
 
 /** Show that nothing is understood yet. */
