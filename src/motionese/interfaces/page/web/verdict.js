@@ -39,7 +39,7 @@ export function showVerdict({ motion, seen, sentence, claim }) {
   showSeen(seen, motion);
   const { made: claims, foretold_cm: foretold, expected_cm: expected } = claim;
   const expects = expected === null ? "" : `; expects to miss by ${cm(expected)}`;
-  showClaim(claims ? "Yes, it says" : "Not yet, it says", `Foretold the end to ${cm(foretold)}${expects}`);
+  showClaim(claims ? "It says yes" : "Not yet", `Foretold the end to ${cm(foretold)}${expects}`);
   say(part("verdict-spoken"), read(motion).start ? `${inWords(motion)}. ${sentence}` : sentence);
 }
 
@@ -47,7 +47,7 @@ export function showVerdict({ motion, seen, sentence, claim }) {
 export function showResult({ good, error_cm: error, pushes }) {
   const done = pushes.filter((push) => push.made).length;
   const pressed = pushes.length ? `, pressed ${done} of ${pushes.length}` : "";
-  showClaim(good ? "Yes, it did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
+  showClaim(good ? "It did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
 }
 
 /** Show that nothing is understood yet. */
