@@ -16,7 +16,7 @@ from motionese.teaching.session import Teaching
 from motionese.teaching.view import hand_seen
 
 SEEDS = (20, 21)
-SHORT = ("stages.0.until.loops=15", "stages.1.until.loops=5")
+SHORT = ("stages.0.until.loops=12", "stages.1.until.loops=3")
 
 
 def test_the_own_hand_is_expected_where_commands_have_brought_it(scene, fresh):
@@ -58,7 +58,7 @@ def test_the_rest_of_what_was_learned_is_foretold(scene, fresh):
 def asked(scene, learner):
     """Whether the robot claims to be able to do a motion, and whether it can, for each."""
     rng, caregiver = np.random.default_rng(scene.seed), scene.caregiver()
-    for sequence in (s for length in (1, 2, 3) for s in scene.task.sequences(length)):
+    for sequence in (s for length in (1, 2) for s in scene.task.sequences(length)):
         way = caregiver.demonstrate(sequence, rng).path
         teaching = Teaching(scene, learner)
         shown = teaching.show(scene.body.reachable(straying(way, rng, 1.0)), "drawn")
@@ -73,9 +73,7 @@ def test_a_newborn_claims_nothing_and_a_trained_robot_is_right(tmp_path):
             run = folder.run(condition_named("TD/MD", settings.factors), seed)
             go_through(run, settings, lambda *told: None)
             scene = Scene(settings, seed)
-            bare = newborn(scene, 2)
-            for learner in (bare, babbled(scene, bare)):
-                assert not any(made for made, _ in asked(scene, learner))
+            assert not any(made for made, _ in asked(scene, babbled(scene, newborn(scene, 2))))
             found += asked(scene, robot_of(run.folder).learner)
     right = [can for made, can in found if made]
     assert right and right.count(False) <= max(1, 0.1 * len(right))
