@@ -99,7 +99,10 @@ def test_columns_in_another_order_are_put_into_the_models(arm):
         )
     ]
     named = ("--channels", "shoulder,elbow,x,y")
-    assert recognised("turned.csv", *named) == turned
+    assert (
+        recognised("turned.csv", *named).partition("Root mean")[2]
+        == turned.partition("Root mean")[2]
+    )
     assert not read_for(load("arm.safetensors"), "demos.csv").examined
 
 
@@ -108,7 +111,7 @@ def test_of_a_recording_of_some_channels_these_are_looked_at(arm):
 
     told = recognised("hand.csv")
     assert "hand.csv: looked at x, y; not in the recording: shoulder, elbow\n" in told
-    _, _, named = told.partition("\n")
+    _, _, named = told.partition("Root mean")
     assert recognised("hand.csv", *SEEN).endswith(named)
     assert "channel 'shoulder' is missing" in refused(
         "recognise", "arm.safetensors", "hand.csv", "--observed", "shoulder", "x"
