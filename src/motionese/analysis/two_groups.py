@@ -1,5 +1,6 @@
 """Two groups of observations that are not paired: difference, interval, rank test, effect size."""
 
+from math import nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,13 +36,13 @@ class Difference(NamedTuple):
 
 def difference(one: Float[ndarray, " n"], other: Float[ndarray, " m"]) -> Difference:
     """Compare two groups of observations; NaN observations are left out."""
-    kept = [group[np.isfinite(group)] for group in (one, other)]
-    means = [estimate(group, np.mean) for group in kept]
-    value = means[0].value - means[1].value
-    if min(map(len, kept)) < FEWEST:
-        return Difference(*means, value, *[np.nan] * 4)
+    a, b = one[np.isfinite(one)], other[np.isfinite(other)]
+    mean_a, mean_b = estimate(a, np.mean), estimate(b, np.mean)
+    value = mean_a.value - mean_b.value
+    if min(len(a), len(b)) < FEWEST:
+        return Difference(mean_a, mean_b, value, nan, nan, nan, nan)
     interval = stats.bootstrap(
-        kept,
+        (a, b),
         _apart,
         n_resamples=RESAMPLES,
         confidence_level=1 - LEVEL,
@@ -49,10 +50,10 @@ def difference(one: Float[ndarray, " n"], other: Float[ndarray, " m"]) -> Differ
         rng=np.random.default_rng(SEED),
     ).confidence_interval
     permuted = stats.PermutationMethod(n_resamples=RESAMPLES, rng=np.random.default_rng(SEED))
-    test = stats.mannwhitneyu(*kept, method=permuted)
-    effect = 2 * test.statistic / (len(kept[0]) * len(kept[1])) - 1
+    test = stats.mannwhitneyu(a, b, method=permuted)
+    effect = 2 * float(test.statistic) / (len(a) * len(b)) - 1
     low, high = float(interval.low), float(interval.high)
-    return Difference(*means, value, low, high, float(effect), float(test.pvalue))
+    return Difference(mean_a, mean_b, value, low, high, effect, float(test.pvalue))
 
 
 def _apart(one: Any, other: Any, axis: int) -> Any:

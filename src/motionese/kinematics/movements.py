@@ -87,9 +87,9 @@ def still_speed(tracks: Sequence[Track]) -> tuple[float, bool]:
     weights = np.concatenate([track.speeds * track.step_s for track in tracks])
     order = np.argsort(speeds)
     covered = np.cumsum(weights[order])
-    peak = speeds[order][np.searchsorted(covered, SHARE_OF_WAY * covered[-1])]
+    peak = float(speeds[order][np.searchsorted(covered, SHARE_OF_WAY * covered[-1])])
     noise = ABOVE_NOISE * max(track.noise_speed for track in tracks)
-    return max(STILL * float(peak), noise), noise > STILL * float(peak)
+    return max(STILL * peak, noise), noise > STILL * peak
 
 
 def movements_of(track: Track, still: float, pause_s: float, smallest: float) -> list[Movement]:
@@ -105,7 +105,7 @@ def movements_of(track: Track, still: float, pause_s: float, smallest: float) ->
     spans: list[tuple[float, float]] = []
     for start, stop in np.flatnonzero(np.diff(moving.astype(np.int8))).reshape(-1, 2):
         part = track.positions[start:stop]
-        if not len(part) or np.linalg.norm(part - part[0], axis=1).max() < smallest:
+        if np.linalg.norm(part - part[0], axis=1).max() <= smallest:
             continue
         rows = np.arange(start, stop)
         begin, end = _edge(track, rows, still), _edge(track, rows[::-1], still)
@@ -142,13 +142,12 @@ def _edge(track: Track, rows: Int[ndarray, " _"], still: float) -> float:
     share = np.minimum(speeds[: first_peak + 1] / speeds[first_peak], 1.0)
     rise = np.flatnonzero(share >= RISE_LOW)
     rise = rise[: np.argmax(share[rise] >= RISE_HIGH)]
-    if len(rise) < 2:
-        return float(times[0])
     phase = (1 - np.sqrt(1 - np.sqrt(share[rise]))) / 2
-    edge = float(np.polynomial.Polynomial.fit(phase, times[rise], 1)(0.0))
-    other = 2 * times[0] - times[first_peak]
-    outer = min(max(other, track.times[0]), track.times[-1])
-    return float(np.clip(edge, *sorted((outer, times[0]))))
+    if len(rise) < 2 or np.ptp(phase) == 0:
+        return float(times[0])
+    edge = np.polyfit(phase, times[rise], 1)[1]
+    outer = np.clip(2 * times[0] - times[first_peak], track.times[0], track.times[-1])
+    return float(np.clip(edge, min(outer, times[0]), max(outer, times[0])))
 
 
 def _first_peak(speeds: Float[ndarray, " _"], around: int) -> int:

@@ -9,7 +9,7 @@ is met to some thousandths. Between rows the nearest row's polynomial is read.
 """
 
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, sqrt
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -20,10 +20,15 @@ WINDOW_S = 0.25
 """Width of the window [s], unless that is fewer than `FEWEST` rows."""
 FEWEST = 7
 """Rows of the narrowest window: with fewer the polynomial would follow the noise."""
-FINE_HZ = 100.0
-"""Quantities are told at least so often [Hz], that peaks and crossings do not hang on the rate."""
+MOST_ROWS = 1e9
+"""Rows of a window that are as good as infinitely many."""
+FINE_HZ, MOST_PARTS = 100.0, 25
+"""Quantities are told at least so often [Hz], that peaks and crossings do not hang on the rate; at
+most so many times a row."""
 NORMAL = 1.4826
 """Standard deviations in the median of absolute normal deviates."""
+SLOWEST = 0.25
+"""Share of the rows, the slowest ones, that tell the noise."""
 CHUNK = 4096
 
 
@@ -36,7 +41,8 @@ class Track:
         positions: In the path's unit. [G, D]
         speeds: Norm of the velocity [unit/s]. [G]
         accelerations: Norm of the acceleration [unit/s²]. [G]
-        noise: Standard deviation of the samples about the polynomials [unit], all D together.
+        noise: Standard deviation of the samples [unit], all D together, from how they lie about
+            the polynomials where the hand is slowest.
         noise_speed: What this noise makes of the speed of a hand at rest [unit/s], root mean
             square.
         noise_acceleration: The same of its acceleration [unit/s²].
@@ -58,7 +64,7 @@ class Track:
 
 def window_rows(rate_hz: float, window_s: float) -> int:
     """Return the rows of the window: an odd number, at least `FEWEST`."""
-    return max(2 * round(window_s * rate_hz / 2) + 1, FEWEST)
+    return max(2 * round(min(window_s * rate_hz, MOST_ROWS) / 2) + 1, FEWEST)
 
 
 def tracks_of(
@@ -83,10 +89,11 @@ def tracks_of(
 
 def _track(rows: ndarray, values: Float[ndarray, "N D"], rate_hz: float, window: int) -> Track:
     """Return the track of the observed rows of a stretch."""
-    times, middle = rows / rate_hz, values.mean(axis=0)
+    # What stays where it is moves by exactly 0, wherever that is.
+    times, origin = rows / rate_hz, values[0]
     at = np.arange(rows[0], rows[-1] + 1) / rate_hz
-    fit = polynomials(times, values - middle, at, window)
-    parts = ceil(FINE_HZ / rate_hz - 1e-9) // 2 * 2 + 1
+    fit = polynomials(times, values - origin, at, window)
+    parts = ceil(min(FINE_HZ / rate_hz, MOST_PARTS) - 1e-9) // 2 * 2 + 1
     off = (np.arange(parts) - parts // 2) / (parts * rate_hz)
     order, inside = np.arange(DEGREE + 1), slice(parts // 2, parts * len(at) - parts // 2)
 
@@ -96,20 +103,30 @@ def _track(rows: ndarray, values: Float[ndarray, "N D"], rate_hz: float, window:
         fine = np.einsum("pk,rkd->rpd", powers, fit).reshape(-1, values.shape[1])
         return np.asarray(fine[inside])
 
-    inner = slice(window // 2, len(rows) - window // 2)
-    residuals = (values - middle - fit[rows - rows[0], 0])[inner]
     position, speed, acceleration = gains(rate_hz, window)
-    deviations = NORMAL * np.median(np.abs(residuals), axis=0) / np.sqrt(1 - position)
-    noise = float(np.linalg.norm(deviations))
+    deviation = _deviation(fit[rows - rows[0]], values - origin, window)
+    noise = deviation / sqrt(1 - position)
     return Track(
         (at[:, None] + off).ravel()[inside],
-        read(0) + middle,
+        read(0) + origin,
         np.linalg.norm(read(1), axis=1),
         np.linalg.norm(read(2), axis=1),
         noise,
         noise * speed,
         noise * acceleration,
     )
+
+
+def _deviation(fit: Float[ndarray, "N K D"], values: Float[ndarray, "N D"], window: int) -> float:
+    """Return how far samples lie off their polynomials where the hand is slowest.
+
+    Where it is fast there are also residuals of its motion.
+    """
+    inner = slice(window // 2, len(values) - window // 2)
+    speeds = np.linalg.norm(fit[inner, 1], axis=1)
+    slow = speeds <= np.quantile(speeds, SLOWEST)
+    residuals = np.abs(values - fit[:, 0])[inner][slow]
+    return float(np.linalg.norm(NORMAL * np.median(residuals, axis=0)))
 
 
 def polynomials(
