@@ -113,8 +113,8 @@ def test_three_dimensions_and_joints_are_drawn_too(arm):
         (("/hand.position[x]", "/hand.position[y]"), [], "the hand at /hand.position[x], /hand."),
         (("a", "b"), ["--hand", "b", "a"], "the hand at b, a [no unit told]"),
         (("a", "b"), ["--hand", "a", "b", "--unit", "a=cm"], "the hand at a, b [cm]"),
-        (("max", "ymax"), [], "joints max, ymax [rad]"),
-        (("a [deg]", "b [rad]"), [], "joints a, b [rad]"),
+        (("max", "ymax"), [], "joints max, ymax [rad] (taken to be, where no unit is told);"),
+        (("a [deg]", "b [rad]"), [], "joints a, b [rad];"),
         (("a [rad]", "force [N]"), [], "joints a [rad]"),
     ],
 )

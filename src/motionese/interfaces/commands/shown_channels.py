@@ -39,17 +39,21 @@ class Shown:
         recording: Its channels are those measured.
         hand: Whether they are a hand's position; joint angles otherwise.
         unit: Of all channels; empty where unknown.
+        supposed: Whether a channel tells no unit, and is taken to be in this one.
     """
 
     recording: Recording
     hand: bool
     unit: str
+    supposed: bool
 
     @property
     def what(self) -> str:
         """What is measured, in words."""
         names = ", ".join(self.recording.channels)
-        return f"{'the hand at' if self.hand else 'joints'} {names} [{self.unit or 'no unit told'}]"
+        kind = "the hand at" if self.hand else "joints"
+        supposed = " (taken to be, where no unit is told)" if self.unit and self.supposed else ""
+        return f"{kind} {names} [{self.unit or 'no unit told'}]{supposed}"
 
 
 def read_shown(
@@ -85,7 +89,8 @@ def read_shown(
     measured = names or _joints(taken, told=choice.channels is not None)
     exact = choice.model_copy(update={"channels": measured, "exclude": ()})
     recording = _even(chosen(whole, exact), exact)
-    return Shown(_in_unit(recording, unit), bool(names), unit)
+    supposed = not all(recording.units)
+    return Shown(_in_unit(recording, unit), bool(names), unit, supposed)
 
 
 def _even(recording: Recording, choice: Choice) -> Recording:
