@@ -12,10 +12,12 @@ import numpy as np
 from jaxtyping import Float, Int
 from numpy import ndarray
 
-from motionese.errors import ChannelError, unknown
+from motionese.arguments import place_of, refusing, several
+from motionese.errors import ChannelError, kind_of
 from motionese.unit_interval import INNER_HIGH, INNER_LOW, from_unit, to_unit
 
 
+@refusing(ChannelError)
 @dataclass(frozen=True)
 class Channel:
     """One sensed quantity.
@@ -50,8 +52,12 @@ class Channel:
 class Channels(Sequence[Channel]):
     """The channels of a body or a recording, in the order of the columns of its arrays."""
 
+    @refusing(ChannelError)
     def __init__(self, channels: Iterable[Channel]) -> None:
         self._channels = tuple(channels)
+        for channel in self._channels:
+            if not isinstance(channel, Channel):
+                raise ChannelError(f"channels must be of the kind Channel, got {kind_of(channel)}")
         if not self._channels:
             raise ChannelError("no channels given; at least one is needed")
         doubled = sorted({n for n in self.names if self.names.count(n) > 1})
@@ -75,13 +81,10 @@ class Channels(Sequence[Channel]):
         """How much of each channel's unit the whole unit interval stands for."""
         return np.asarray(self._span / (INNER_HIGH - INNER_LOW))
 
-    def indices(self, names: Iterable[str]) -> Int[ndarray, " K"]:
-        """Return the columns of the named channels; `ChannelError` for a name that is not here."""
-        columns = []
-        for name in names:
-            if name not in self.names:
-                raise ChannelError(unknown("channel", name, self.names))
-            columns.append(self.names.index(name))
+    @refusing(ChannelError)
+    def indices(self, names: Iterable[str | int] | str | int) -> Int[ndarray, " K"]:
+        """Return the columns of channels by name or number; `ChannelError` for one not here."""
+        columns = [place_of("channel", one, self.names, ChannelError) for one in several(names)]
         return np.array(columns, dtype=np.int64)
 
     def to_unit(self, values: Float[ndarray, "*shape"]) -> Float[ndarray, "*shape"]:

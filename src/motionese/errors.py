@@ -6,6 +6,7 @@ exception that reaches it is a defect of the package.
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import Any
 
 
 class MotioneseError(Exception):
@@ -56,7 +57,13 @@ class TooFewSeedsError(MotioneseError):
     """A statistical test was asked for with fewer seeds than it needs."""
 
 
+LONGEST_TOLD = 60
+"""Characters of what was given, beyond which only its type is told."""
 NO_MOTION = "the model has learned no motion yet; train it on motions first"
+HELD_OUT = (
+    "was held out of the training, so the model has no initial states of it: recognise finds them "
+    "(--initial FILE writes them there), and generate --initial FILE goes on from them"
+)
 CHECKPOINT_BEFORE = (
     "a checkpoint of an experiment made by motionese 0.1 before checkpoints were models: "
     "run the experiment again"
@@ -65,11 +72,23 @@ CHECKPOINT_BEFORE = (
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> str:
     """Return the sentence for a name that does not exist, with the nearest one that does."""
-    names = [str(k) for k in known]
+    names, name = [str(k) for k in known], str(name)
     folded = {k.casefold(): k for k in names}
     near = get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.4)
     hint = f"; did you mean '{folded[near[0]]}'?" if near else ";"
     return f"unknown {kind} '{name}'{hint} there are: {', '.join(names)}"
+
+
+def kind_of(given: Any) -> str:
+    """Return what something is, in a few words, for the sentence that refuses it."""
+    kind = type(given)
+    text = repr(given) if kind.__module__ == "builtins" else ""
+    if text and len(text) <= LONGEST_TOLD and not text.startswith("<"):
+        return text
+    if (shape := getattr(given, "shape", None)) is not None:
+        return f"{kind.__name__} of shape {shape}"
+    size = f" of {len(given)}" if isinstance(given, list | tuple | dict | set) else ""
+    return f"{kind.__name__}{size}"
 
 
 def needs(package: str, extra: str, what: str) -> MissingPackageError:

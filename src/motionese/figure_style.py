@@ -67,12 +67,24 @@ class Drawing:
 
 def finished(figure: Figure, name: str) -> Drawing:
     """Turn a figure into files, without a date or a version in them."""
-    svg, png = io.StringIO(), io.BytesIO()
+    svg = as_svg(figure, name)
+    figure.set_layout_engine("none")  # what has been laid out stays, at half the time
+    return Drawing(svg, as_png(figure))
+
+
+def as_svg(figure: Figure, name: str) -> str:
+    """Return a figure as SVG whose names begin with `name`."""
+    svg = io.StringIO()
     with rc_context({"svg.hashsalt": "motionese"}):
         figure.savefig(svg, format="svg", metadata={"Date": None, "Creator": None})
-    figure.set_layout_engine("none")  # what has been laid out stays, at half the time
+    return _settled(svg.getvalue(), name)
+
+
+def as_png(figure: Figure) -> bytes:
+    """Return a figure as PNG."""
+    png = io.BytesIO()
     figure.savefig(png, format="png", dpi=150, metadata={"Software": None})
-    return Drawing(_settled(svg.getvalue(), name), png.getvalue())
+    return png.getvalue()
 
 
 def _settled(svg: str, name: str) -> str:

@@ -11,6 +11,7 @@ from motionese.body import pictures
 from motionese.body.actroid import Actroid, ActroidSettings
 from motionese.body.actroid.reach import marker_at, projected
 from motionese.body.eye import ProjectedEye
+from motionese.body.graphics_library import without_graphics
 from motionese.errors import RenderingError
 from motionese.task import PUSHING_BUTTONS
 
@@ -96,7 +97,7 @@ WITHOUT_GL = """
 import ctypes, os
 load = ctypes.CDLL.__init__
 def refuse(self, name, *rest, **more):
-    if name and ("EGL" in name or "libGL" in name):
+    if name and any(part in name for part in ("EGL", "libGL", "OSMesa")):
         raise OSError(name + ": cannot open shared object file")
     load(self, name, *rest, **more)
 ctypes.CDLL.__init__ = refuse
@@ -150,9 +151,23 @@ def test_gl_that_cannot_open_a_picture_says_so(gl):
     assert all("libegl1" in refusal for refusal in refusals)
 
 
-def test_missing_gl_that_was_asked_for_is_an_error_of_ours():
-    (refusal,) = printed(WITHOUT_GL, MUJOCO_GL="egl")
-    assert "MUJOCO_GL" in refusal and "libegl1" in refusal
+@pytest.mark.parametrize("asked", ["egl", "osmesa", "no such library"])
+def test_missing_gl_that_was_asked_for_stops_pictures_alone(asked):
+    works, *refusals = printed(WITHOUT_GL, MUJOCO_GL=asked)
+    assert works == "projected view works" and len(refusals) == 2
+    for refusal in refusals:
+        assert f"unset MUJOCO_GL (it asks for '{asked}')" in refusal and "libegl1" in refusal
+
+
+def test_choosing_gl_late_leaves_the_environment_as_it_was(monkeypatch):
+    for before in ("osmesa", None):
+        if before is None:
+            monkeypatch.delenv("MUJOCO_GL", raising=False)
+        else:
+            monkeypatch.setenv("MUJOCO_GL", before)
+        with without_graphics():
+            assert os.environ["MUJOCO_GL"] == "disabled"
+        assert os.environ.get("MUJOCO_GL") == before
 
 
 def test_without_opencv_the_rendered_view_says_what_to_install(monkeypatch):

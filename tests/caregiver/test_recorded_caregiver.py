@@ -20,6 +20,7 @@ from motionese.task import PUSHING_BUTTONS, SHAPES
 
 MANNER = Manner(stroke_steps=12, rest_steps=2, variability_mm=3.0, persistence=0.9)
 CHANNELS = ("hand_x", "hand_y", "hand_z")
+DIAGONAL = lasting(np.stack([PUSHING_BUTTONS.position(name) for name in ("UR", "LL")]), 20)
 
 
 class Shown:
@@ -107,21 +108,34 @@ def test_the_digest_tells_demonstrations_apart(buttons, shown, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("name", "aside", "said"),
     [
-        (lambda s: [("UR ←", s[0][1])], "'UR ←' shows UR ↓"),
-        (lambda s: [s[0], ("UR ↓→", s[0][1])], "episode 'UR ↓→' is named by no sequence"),
-        (lambda s: [s[0], ("UR ↓←", s[0][1])], "impossible sequence 'UR ↓←': from LR only ↑"),
-        (lambda s: [s[0], ("wave", s[0][1])], "episode 'wave' is named by no sequence"),
-        (lambda s: s[3:], "no episode is named by a sequence"),
-        (lambda s: [("UR ↓", s[0][1] + 0.2)], "cm from what the robot's hand reaches"),
-        (lambda s: [("UR ↓", np.full((5, 3), np.nan))], "finite|NaN"),
+        ("UR ←", 0.0, "'UR ←' shows UR ↓"),
+        ("UR ↓→", 0.0, "'UR ↓→' is named by no sequence of pushing_buttons"),
+        ("UR ↓←", 0.0, "'UR ↓←' is named by no sequence"),
+        ("your motion 1 (2)", 0.0, "'your motion 1 (2)' is named by no sequence"),
+        ("UR ↓", 0.2, "cm from what the robot's hand reaches"),
+        ("UR ↓", None, "'UR ↓' shows no sequence of pushing_buttons"),
     ],
 )
-def test_what_cannot_be_shown_is_refused(buttons, shown, tmp_path, change, said):
-    file = written(tmp_path / "d.npz", change(shown))
-    with pytest.raises(MotioneseError, match=said):
-        buttons.read(file)
+def test_what_is_no_motion_of_the_task_is_skipped_and_told(
+    buttons, shown, tmp_path, name, aside, said
+):
+    path = shown[0][1] + aside if aside is not None else buttons.body.reachable(DIAGONAL)
+    alone = written(tmp_path / "alone.npz", [(name, path)])
+    with pytest.raises(MotioneseError, match="no episode shows a sequence") as refused:
+        buttons.read(alone)
+    assert said in str(refused.value)
+    among = buttons.read(written(tmp_path / "among.npz", [(name, path), shown[2]]))
+    assert list(among.recordings) == ["LR ↑←"]
+    assert len(among.skipped) == 1 and said in among.skipped[0]
+    bare = buttons.read(written(tmp_path / "bare.npz", [shown[2]]))
+    assert bare.digest == among.digest and not bare.skipped
+
+
+def test_what_is_no_number_is_refused(buttons, tmp_path):
+    with pytest.raises(MotioneseError, match=r"finite|NaN"):
+        buttons.read(written(tmp_path / "d.npz", [("UR ↓", np.full((5, 3), np.nan))]))
 
 
 def test_other_channels_are_refused(buttons, shown, tmp_path):

@@ -62,7 +62,7 @@ def test_a_time_constant_below_one_step_is_refused(tau):
 
 @pytest.mark.parametrize("size", [0, -1, 2.0, True])
 def test_a_size_that_is_no_positive_whole_number_is_refused(unchecked, size):
-    with pytest.raises(SettingError, match=f"size must be a whole number ≥ 1, got {size}"):
+    with pytest.raises(SettingError, match=f"size must be a whole number.*, got {size}"):
         Level(size, tau=2.0)
 
 

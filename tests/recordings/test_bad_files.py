@@ -22,7 +22,10 @@ TEXTS = (
     .filter(lambda name: name and name.casefold() not in ("episode", "time"))
 )
 NAMES = st.sampled_from(
-    ["episode", "time", "t [ms]", "x", "y (rad)", "", "1", "frame", '"', "#", "%t"]
+    (
+        *("episode", "time", "t [ms]", "x", "y (rad)", "", "1", "frame", '"', "#", "%t", "run"),
+        *("sec", "nsec", "header.stamp.secs", "header.stamp.nsecs", "wall_time", "column_0"),
+    )
 )
 
 
@@ -88,20 +91,35 @@ def test_files_of_anything(files, tmp_path, name, content):
     tried(put(tmp_path / "anything", name, content, files))
 
 
-@settings(max_examples=150)
-@given(st.data())
-def test_tables_of_anything(tmp_path, data):
+def try_a_table(path, data):
     width = data.draw(st.integers(1, 4))
     rows = st.lists(CELLS, min_size=width - 1, max_size=width + 1)
     header = data.draw(st.lists(NAMES, min_size=width, max_size=width, unique=True))
     body = data.draw(st.lists(rows, max_size=6))
+    times = data.draw(st.integers(1, 5))
     separator = data.draw(st.sampled_from([",", ";", "\t", " "]))
-    above = data.draw(st.sampled_from(["", "# a\n", "# a,b\n\n", "sep=;\n", '#"\n']))
-    path = tmp_path / "table.csv"
-    text = "\n".join(separator.join(row) for row in [header, *body])
-    path.write_text(above + text, encoding="utf-8")
+    above = data.draw(st.sampled_from(["", "# a\n", "# a,b\n\n", "sep=;\n", '#"\n', "Lab\nv: 2\n"]))
+    encoding = data.draw(st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "cp1252"]))
+    named = data.draw(st.booleans())
+    text = "\n".join(separator.join(row) for row in [*([header] if named else []), *body * times])
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes((above + text).encode(encoding, errors="replace"))
 
     tried(path)
+    tried(path.parent)
+
+
+@settings(max_examples=150)
+@given(st.data())
+def test_tables_of_anything(tmp_path, data):
+    try_a_table(tmp_path / "tables" / "table.csv", data)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(st.data())
+def test_more_tables_of_anything(tmp_path, data):
+    try_a_table(tmp_path / "tables" / "table.txt", data)
 
 
 @settings(max_examples=30)

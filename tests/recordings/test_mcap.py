@@ -12,7 +12,7 @@ from mcap.writer import CompressionType, Writer
 
 from motionese.errors import MotioneseError, RecordingError
 from motionese.recordings import read, write
-from motionese.recordings.formats.mcap import numbers
+from motionese.recordings.formats.json_messages import numbers
 
 START = 1_700_000_000_000_000_000
 """A log time of today [ns], which a float does not hold exactly."""
@@ -163,8 +163,8 @@ def test_numbers_are_found_where_they_stand(message, expected):
 
 
 def test_messages_in_other_encodings_are_named(tmp_path):
-    path = tape(tmp_path / "ros.mcap", [("/joints", 0, b"\x00\x01")], encoding="cdr")
-    with pytest.raises(RecordingError, match=r"ros\.mcap: no numbers in .* 'json'.* in it: cdr"):
+    path = tape(tmp_path / "a.mcap", [("/joints", 0, b"\x00\x01")], encoding="protobuf")
+    with pytest.raises(RecordingError, match=r"a\.mcap: no numbers of .*: /joints \(any\)"):
         read(path)
 
 
@@ -218,6 +218,35 @@ def test_a_changed_byte_is_noticed_by_its_checksum(tmp_path):
     path.write_bytes(path.read_bytes().replace(b'{"a": 7}', b'{"a": 9}'))
     with pytest.raises(RecordingError, match=r"damaged after 0 messages .crc validation failed"):
         read(path)
+
+
+def test_topics_silences_and_marks_are_those_of_bags(tmp_path):
+    messages = [("/joints", 0.1 * i, joint_state(i)) for i in range(20) if not 8 <= i < 14]
+    messages += [("/gaze", 0.1 * i, {"pan": i}) for i in range(8)]
+    messages += [("/take", 0.35, {"data": "reach"}), ("/take", 0.65, {"data": False})]
+    path = tape(tmp_path / "a.mcap", sorted(messages, key=lambda m: m[1]))
+
+    found = read(path, topics=["/ga*"])
+    assert (found.channels, found.findings) == (("/gaze.pan",), ())
+    assert [(e.name, len(e.values)) for e in read(path, pause=0.5).episodes] == [
+        ("a_0", 8),
+        ("a_1", 6),
+    ]
+    (reach,) = read(path, topics="/ga*", marker="/take").episodes
+    assert (reach.name, reach.values.ravel().tolist()) == ("reach", [4, 5, 6])
+
+
+def test_of_other_encodings_it_is_told_that_they_are_left_out(tmp_path):
+    with (tmp_path / "a.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        topics = {e: writer.register_channel(f"/{e}", e, 0) for e in ("json", "protobuf", "quiet")}
+        for encoding in ("json", "protobuf"):
+            writer.add_message(topics[encoding], START, b'{"a": 1}', START)
+        writer.finish()
+    (finding,) = read(tmp_path / "a.mcap").findings
+
+    assert "left out: /protobuf (as protobuf)" in finding.sentence
 
 
 @settings(max_examples=60)

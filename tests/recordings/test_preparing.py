@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionese.errors import ChannelError, MotionError, RecordingError, SettingError
-from motionese.recordings import Episode, Recording, choose, prepare
+from motionese.recordings import Episode, Recording, choose, prepare, read
 
 
 def one(values, times=None, observed=None, rate_hz=None, channels=None):
@@ -446,3 +446,21 @@ def test_a_channel_of_more_than_two_values_is_not_binary():
         ChannelError, match="channel 'c0' takes 3 values; --binary names channels o"
     ):
         prepared(one([0, 1, 2], rate_hz=9.0), binary=["c0"])
+
+
+# --- what is told of channels ---
+
+
+def test_what_is_told_of_channels_follows_the_choice(tmp_path):
+    rows = [f"{i / 20},{np.sin(i / 9)},{np.cos(i / 9)},{99.5 + i / 20}" for i in range(40)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time,a,b,uptime", *rows]))
+
+    def told(**choice):
+        ready = prepare(read(path), choose(**choice))
+        return ready.channels, [f.channel for f in ready.findings]
+
+    assert told() == (("a", "b"), ["uptime"])
+    assert told(exclude=["uptime"]) == (("a", "b"), [])
+    assert told(channels=["b"]) == (("b",), [])
+    assert told(channels=["b", "uptime"]) == (("b", "uptime"), [])

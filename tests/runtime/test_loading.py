@@ -26,7 +26,8 @@ import sys
 
 class Refuses:
     ours = ("motionese", "motionese.runtime", "motionese.errors", "motionese.unit_interval",
-            "motionese.minimum_jerk", "motionese.files", "motionese.time_constants")
+            "motionese.minimum_jerk", "motionese.files", "motionese.time_constants",
+            "motionese.arguments")
 
     def find_spec(self, name, path=None, target=None):
         first = name.partition(".")[0]

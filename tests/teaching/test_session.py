@@ -1,7 +1,6 @@
 """A session with a robot that knows nothing: show, imitate, learn, forget, grow, and the map."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from motionese import runtime
 from motionese.body import Geometry
 from motionese.caregiver import (
     DEMONSTRATIONS,
-    Demonstration,
+    SOMETHING_ELSE,
     intended_way,
     lasting,
     read_recorded,
@@ -24,10 +23,16 @@ from motionese.interfaces.page.descriptions import scene_message
 from motionese.recordings import read
 from motionese.teaching.frames import film
 from motionese.teaching.interactive_map import InteractiveMap
-from motionese.teaching.notebook import Entry
 from motionese.teaching.session import PRACTICE, Teaching
 from motionese.teaching.session_folder import SessionFolder
 from motionese.teaching.view import View
+
+
+def diagonal(scene, aside_m=0.0):
+    """A hand's path that is no motion of the task."""
+    aside = np.array([0, aside_m, 0])
+    ends = [scene.task.position(name) + aside for name in ("UR", "LL")]
+    return scene.body.reachable(lasting(np.stack(ends), 20))
 
 
 def nothing(*progress):
@@ -219,17 +224,43 @@ def test_the_experiment_takes_what_was_drawn_and_leaves_out_what_it_cannot_read(
 ):
     scene, task = teaching.scene, teaching.scene.task
     teaching.show(draw("UR ↓"), "drawn")
-    ends = np.stack([task.position(name) for name in ("UR", "LL")])
-    diagonal = scene.body.reachable(lasting(ends, 20))
-    shown = Demonstration(diagonal, (0,))
-    # The robot took the diagonal for a stroke that it knows.
-    notebook = teaching.notebook.with_entry(Entry(2, "UR ↓", "drawn", diagonal, shown))
-    teaching.return_to(replace(teaching.standing, notebook=notebook))
+    teaching.show(diagonal(scene), "drawn")
     SessionFolder(tmp_path).save(teaching)
     names = [episode.name for episode in read(tmp_path / DEMONSTRATIONS).episodes]
-    assert names == ["UR ↓", "UR ↓ ?"]
+    assert names == ["UR ↓", "your motion 1"]
     recorded = read_recorded(tmp_path, task, scene.settings.caregiver, scene.body)
     assert [len(each) for each in recorded.recordings.values()] == [1]
+    assert recorded.skipped == ("'your motion 1' is named by no sequence of pushing_buttons",)
+
+
+def test_a_motion_of_one_s_own_has_a_name_and_is_known_from_then_on(teaching, draw):
+    scene = teaching.scene
+    first = teaching.show(diagonal(scene), "drawn")
+    assert next(iter(first.verdict.seen)) == SOMETHING_ELSE and first.verdict.sequence is None
+    assert first.entry.motion == "your motion 1" and "I call it" in first.verdict.sentence
+    again = teaching.show(diagonal(scene, aside_m=0.01), "drawn")
+    assert again.entry.motion == "your motion 1" and "saw before" in again.verdict.sentence
+    teaching.learn(nothing)
+    assert "which I have learned" in teaching.show(diagonal(scene), "drawn").verdict.sentence
+    assert teaching.show(diagonal(scene)[::-1], "drawn").entry.motion == "your motion 2"
+    assert teaching.show(draw("UR ↓"), "drawn").entry.motion == "UR ↓"
+
+
+def test_a_robot_that_has_never_moved_claims_nothing(teaching, draw):
+    for name in ("UR ↓", "LR ↑←"):
+        claim = teaching.show(draw(name), "drawn").verdict.claim
+        assert not claim.made and "never moved" in claim.sentence and claim.like == ""
+
+
+def test_the_last_try_speaks_until_the_network_has_changed(teaching, draw):
+    assert teaching.show(draw("UR ↓"), "drawn").verdict.advice == "imitate"
+    trial = teaching.imitate()
+    assert not trial.result.good and trial.result.pushes[0].needed_mm == 5
+    shown = teaching.show(draw("UR ↓"), "drawn").verdict
+    assert shown.claim.tried == trial.result and shown.advice == "learn"
+    assert teaching.show(draw("UR ←"), "drawn").verdict.claim.tried is None
+    teaching.grow(nothing)
+    assert teaching.show(draw("UR ↓"), "drawn").verdict.claim.tried is None
 
 
 def test_a_new_robot_leaves_the_old_one_in_a_subfolder(teaching, draw, tmp_path):

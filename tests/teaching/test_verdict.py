@@ -1,62 +1,71 @@
-"""How sure the verdict on a demonstration is."""
+"""The verdict: what was seen and whether it can be done, in words, and the advice."""
 
 import numpy as np
 import pytest
 
-from motionese.caregiver import intended_way, lasting
+from motionese.caregiver import SOMETHING_ELSE, intended_way
 from motionese.task import PUSHING_BUTTONS, SHAPES
+from motionese.teaching.claim import FORETOLD_CM, Claim
 from motionese.teaching.recogniser import start_of
-from motionese.teaching.verdict import confidence, verdict_on
+from motionese.teaching.result import WELL_CM, Push, Result
+from motionese.teaching.verdict import Verdict, seen_in_words
 
-KNOWN = ["babbling", "UR ?", "UR ↓"]
-
-
-def path_of(name, task=PUSHING_BUTTONS):
-    return intended_way(task.sequence(name), task)
-
-
-def verdict(shown, understood, task=PUSHING_BUTTONS):
-    return verdict_on(path_of(shown, task), path_of(understood, task), task, KNOWN)
+PRESSED = Push("right_button", "the right button", 6.1, 5.0)
+MISSED = Push("right_button", "the right button", 4.2, 5.0)
+OWN = "your motion 1"
 
 
-def test_the_right_sequence_is_sure():
-    sure = verdict("UR ↓↑", "UR ↓↑")
-    assert sure.recognised == sure.shown == PUSHING_BUTTONS.sequence("UR ↓↑")
-    assert sure.confidence > 0.9 and sure.error_cm == pytest.approx(0, abs=1e-9)
-    assert sure.sentence == "I understood: from the upper right down, then up."
+def claim(foretold=1.0, expected=1.0, missed=(), tried=None):
+    return Claim(foretold, expected, missed, "UR ↓", 0.1, tried)
 
 
-def test_an_arc_is_told_from_the_straight_way_between_the_same_places():
-    sure = verdict("T ◝◡", "T ◝◡", SHAPES)
-    assert sure.recognised == sure.shown == SHAPES.sequence("T ◝◡")
-    assert sure.confidence > 2 * sure.alternatives[0][1]
-    unsure = verdict("T ↘", "T ◝", SHAPES)
-    assert unsure.shown == SHAPES.sequence("T ↘") and unsure.recognised == SHAPES.sequence("T ◝")
-    assert unsure.confidence < sure.confidence
+def words(seen, motion, learned=()):
+    return seen_in_words(seen, motion, PUSHING_BUTTONS, learned)
 
 
-def test_to_understand_something_else_than_was_shown_is_not_sure():
-    wrong = verdict("UR ↓", "UR ←")
-    assert wrong.recognised != wrong.shown and wrong.error_cm > 5
-    assert wrong.confidence < 0.9, "no candidate is near to both"
-    assert "I understood" not in wrong.sentence
+def advice(tried):
+    return Verdict({"UR ↓": 1.0}, "UR ↓", None, 0.0, claim(tried=tried), "").advice
 
 
-def test_confidences_are_the_softmax_that_is_described():
-    down, left = (PUSHING_BUTTONS.sequence(name) for name in ("UR ↓", "UR ←"))
-    middle = (path_of("UR ↓") + path_of("UR ←")) / 2
-    shares = confidence([down, left], middle, middle, PUSHING_BUTTONS)
-    assert sum(shares) == pytest.approx(1) and shares[0] == pytest.approx(0.5, abs=0.2)
-    nearer = 0.8 * path_of("UR ↓") + 0.2 * path_of("UR ←")
-    assert confidence([down, left], nearer, nearer, PUSHING_BUTTONS)[0] > 0.99
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({}, "I can do this."),
+        ({"foretold": FORETOLD_CM + 0.1}, "it went on 5.1 cm from what I expected"),
+        ({"expected": WELL_CM + 0.1}, "I expect to miss by 2.1 cm"),
+        ({"expected": np.inf}, "I have never moved"),
+        ({"missed": ("the left button",)}, "I expect to miss the left button"),
+        ({"tried": Result(1.0, (PRESSED,))}, "I can do this."),
+        ({"tried": Result(1.0, (MISSED,))}, "my last try pressed the right button 4.2 mm; 5"),
+        ({"tried": Result(4.0)}, "my last try missed by 4.0 cm"),
+    ],
+)
+def test_a_claim_is_made_only_where_nothing_speaks_against_it(given, said):
+    made = claim(**given)
+    assert said in made.sentence and made.made == ("I can" in said)
 
 
-def test_an_unreadable_path_is_admitted():
-    start = PUSHING_BUTTONS.position("UR")
-    nowhere = lasting(np.stack([start, start + np.array([0, 0, 0.03])]), 10)
-    said = verdict_on(nowhere, nowhere, PUSHING_BUTTONS, [])
-    assert said.recognised is None and said.confidence == 0
-    assert "upper right" in said.sentence and "do not know" in said.sentence
+def test_a_result_says_how_near_it_came_and_what_it_pressed():
+    pressed, missed = Result(1.0, (PRESSED,)), Result(1.0, (PRESSED, MISSED))
+    assert pressed.good and not missed.good and not Result(WELL_CM + 0.1).good
+    assert "pressed the right button: 6.1 mm of the 5 it needs" in pressed.sentence
+    assert "does this well" in pressed.sentence and "does this well" not in missed.sentence
+    assert "4.2 mm; 5 are needed" in missed.sentence
+    assert Result(3.0).sentence == "It missed by 3.0 cm."
+
+
+def test_what_was_seen_is_told_as_surely_as_it_is():
+    down = "from the upper right down"
+    assert words({"UR ↓": 0.9, SOMETHING_ELSE: 0.1}, "UR ↓") == f"I saw: {down}."
+    assert words({"UR ↓": 0.6, SOMETHING_ELSE: 0.4}, "UR ↓") == f"I think I saw: {down}."
+    assert words({SOMETHING_ELSE: 0.9}, OWN).endswith(f"I call it {OWN}.")
+    assert words({OWN: 0.9}, OWN) == f"I saw {OWN}, which I saw before."
+    assert words({OWN: 0.9}, OWN, [OWN]) == f"I saw {OWN}, which I have learned."
+
+
+def test_a_try_that_failed_is_no_reason_to_try_again():
+    assert advice(None) == advice(Result(1.0)) == "imitate"
+    assert advice(Result(4.0)) == advice(Result(1.0, (MISSED,))) == "learn"
 
 
 @pytest.mark.parametrize("task", [PUSHING_BUTTONS, SHAPES], ids=lambda task: task.name)

@@ -3,16 +3,12 @@
 A robot is a folder of this room and a row of `BODIES`: its settings, and its class.
 """
 
-from motionese.errors import RenderingError, SettingError, needs
+from motionese.body.graphics_library import without_graphics
+from motionese.errors import SettingError, needs
 
 try:
-    import mujoco
-except AttributeError as fault:
-    # MUJOCO_GL names a GL library that this machine lacks: MuJoCo itself then fails to import.
-    raise RenderingError(
-        "MuJoCo cannot load the GL library that the environment variable MUJOCO_GL asks for; "
-        "unset it, or install libegl1 and libgl1 (Debian, Ubuntu)"
-    ) from fault
+    with without_graphics():
+        import mujoco
 except ModuleNotFoundError as fault:
     raise needs("mujoco-core", "experiment", "a simulated robot") from fault
 

@@ -1,8 +1,6 @@
 """MuJoCo's renderer, or what is missing on this machine, and pictures of poses that were kept."""
 
-import importlib
 import os
-import platform
 from typing import Literal
 
 import mujoco
@@ -11,6 +9,7 @@ from jaxtyping import Float, UInt8
 from numpy import ndarray
 
 from motionese.body.composition import ROOM
+from motionese.body.graphics_library import NAME, choose_graphics
 from motionese.errors import RenderingError
 
 HEAD_GROUP = 2
@@ -22,23 +21,21 @@ _refused: list[RenderingError] = []
 def open_renderer(model: mujoco.MjModel, width: int, height: int) -> mujoco.Renderer:
     """Return a renderer for pictures of width × height [px]; `close` it, or use it in a `with`.
 
-    MuJoCo chooses its GL library while it is imported. Where nobody has chosen one, EGL, which
-    needs no screen, is chosen now: asked for earlier, a machine without it could not even import
-    MuJoCo.
-
     Raises:
         RenderingError: There is no GL library, or it cannot open a picture.
     """
     if _refused:
         raise _refused[0]
+    asked = os.environ.get(NAME)
     try:
-        if platform.system() == "Linux" and not os.environ.get("MUJOCO_GL"):
-            _choose_egl()
+        choose_graphics()
         return mujoco.Renderer(model, height, width)
     except (ImportError, AttributeError, OSError, RuntimeError, mujoco.FatalError) as fault:
+        unset = f"unset {NAME} (it asks for '{asked}'), or " if asked else ""
         refusal = RenderingError(
-            "pictures cannot be rendered on this machine: install the libraries libegl1 and libgl1 "
-            "(Debian, Ubuntu) and the Python packages of pip install 'motionese[vision]' "
+            f"pictures cannot be rendered on this machine: {unset}install the libraries libegl1 "
+            "and libgl1 (Debian, Ubuntu) and the Python packages of pip install "
+            "'motionese[vision]' "
             f"(the reason given: {str(fault) or type(fault).__name__})"
         )
         _refused.append(refusal)
@@ -71,15 +68,3 @@ def pictures(
             renderer.update_scene(data, camera=name, scene_option=option)
             renderer.render(out=picture)
     return drawn
-
-
-def _choose_egl() -> None:
-    """Let MuJoCo choose its GL library once more, with EGL as the answer."""
-    from mujoco.rendering.classic import gl_context  # noqa: PLC0415
-
-    os.environ["MUJOCO_GL"] = "egl"
-    try:
-        importlib.reload(gl_context)
-    except BaseException:
-        del os.environ["MUJOCO_GL"]
-        raise

@@ -1,6 +1,7 @@
 """The caregiver: how sequences of primitives are shown."""
 
 from motionese.caregiver.demonstration import Caregiver, Demonstration
+from motionese.caregiver.hypotheses import SOMETHING_ELSE, hypotheses, sequence_in
 from motionese.caregiver.recorded_caregiver import (
     DEMONSTRATIONS,
     Recorded,
@@ -9,18 +10,13 @@ from motionese.caregiver.recorded_caregiver import (
     recording_of,
 )
 from motionese.caregiver.scripted_caregiver import Manner, ScriptedCaregiver
-from motionese.caregiver.segmentation import (
-    evenly_along,
-    intended_way,
-    rows_of_places,
-    segmented,
-    sequence_in,
-    stroke_length,
-)
+from motionese.caregiver.segmentation import rows_of_places, segmented
 from motionese.caregiver.tempo import lasting, moving
+from motionese.caregiver.ways import evenly_along, intended_way, stroke_length
 
 __all__ = [
     "DEMONSTRATIONS",
+    "SOMETHING_ELSE",
     "Caregiver",
     "Demonstration",
     "Manner",
@@ -28,6 +24,7 @@ __all__ = [
     "RecordedCaregiver",
     "ScriptedCaregiver",
     "evenly_along",
+    "hypotheses",
     "intended_way",
     "lasting",
     "moving",

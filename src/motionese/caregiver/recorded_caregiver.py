@@ -18,8 +18,9 @@ from numpy import ndarray
 
 from motionese.body import SimulatedRobot
 from motionese.caregiver.demonstration import Caregiver, Demonstration
+from motionese.caregiver.hypotheses import sequence_in
 from motionese.caregiver.scripted_caregiver import Manner
-from motionese.caregiver.segmentation import segmented, sequence_in
+from motionese.caregiver.segmentation import segmented
 from motionese.caregiver.tempo import lasting, moving
 from motionese.errors import RecordingError, TaskError, unknown
 from motionese.recordings import Episode, Recording, choose, prepare, read
@@ -28,8 +29,6 @@ from motionese.task import PrimitiveSequence, Task
 DEMONSTRATIONS = "demonstrations.npz"
 """The file of demonstrations in a session's folder."""
 CHANNELS = ("hand_x", "hand_y", "hand_z")
-UNREAD = "?"
-"""The name of an episode that shows no sequence of the task ends like this; it is left out."""
 REACHABLE_CM = 5.0
 """A recorded hand may be so far from what the arm reaches; the nearest way is shown."""
 _SEVERAL = re.compile(r" \(\d+\)$")
@@ -55,10 +54,17 @@ class RecordedCaregiver:
 
 
 class Recorded(NamedTuple):
-    """Demonstrations by the sequence's name, and a digest that tells them from others."""
+    """Demonstrations that can be shown.
+
+    Attributes:
+        recordings: By the sequence's name.
+        digest: Tells them from others.
+        skipped: Which episodes were left out and why, a sentence each.
+    """
 
     recordings: dict[str, list[Demonstration]]
     digest: str
+    skipped: tuple[str, ...] = ()
 
 
 def recording_of(
@@ -80,49 +86,50 @@ def read_recorded(path: Path, task: Task, manner: Manner, body: SimulatedRobot) 
     """Read recorded demonstrations; each is played at the tempo of the scripted caregiver.
 
     They lie in a session's folder, or are recordings in any format whose channels are the hand's
-    position.
+    position. An episode that is not named by a sequence of the task, does not show the one that
+    its name says, or leaves the arm's reach, is skipped.
 
     Raises:
-        MotioneseError: No such recordings, an episode that is named by no sequence of the task or
-            shows another one than its name says, or a hand out of reach.
+        MotioneseError: No such recordings, or no episode that can be shown.
     """
     file = path / DEMONSTRATIONS if (path / DEMONSTRATIONS).is_file() else path
     recording = prepare(read(file), choose(channels=CHANNELS, resample_hz=body.rate_hz))
     recordings: dict[str, list[Demonstration]] = {}
-    digest = hashlib.sha256()
+    digest, skipped = hashlib.sha256(), list[str]()
     for episode in recording.episodes:
-        name = _SEVERAL.sub("", episode.name)
-        if name.endswith(UNREAD):
-            continue
         try:
-            sequence = task.sequence(name)
+            sequence, hand = _read(episode, task, manner, body)
         except TaskError as error:
-            raise RecordingError(
-                f"{file}: episode '{episode.name}' is named by no sequence of {task.name}: {error} "
-                f"(a name that ends with '{UNREAD}' is left out)"
-            ) from error
-        hand = moving(_within_reach(file, episode, body), manner.rest_steps)
-        shows = sequence_in(hand, task)
-        if shows != sequence:
-            what = shows.name if shows else f"no sequence of {task.name}"
-            raise RecordingError(f"{file}: episode '{episode.name}' shows {what}")
+            skipped.append(f"'{episode.name}' {error}")
+            continue
         shown = lasting(hand, manner.rows(sequence))
         recordings.setdefault(sequence.name, []).append(segmented(shown, sequence, task))
         digest.update(sequence.name.encode() + shown.tobytes())
     if not recordings:
         raise RecordingError(
-            f"{file}: no episode is named by a sequence of {task.name}, such as "
-            f"'{task.sequences(1)[0].name}'"
+            f"{file}: no episode shows a sequence of {task.name} that its name says, such as "
+            f"'{task.sequences(1)[0].name}': {'; '.join(skipped)}"
         )
-    return Recorded(recordings, digest.hexdigest()[:12])
+    return Recorded(recordings, digest.hexdigest()[:12], tuple(skipped))
 
 
-def _within_reach(file: Path, episode: Episode, body: SimulatedRobot) -> Float[ndarray, "R 3"]:
+def _read(
+    episode: Episode, task: Task, manner: Manner, body: SimulatedRobot
+) -> tuple[PrimitiveSequence, Float[ndarray, "M 3"]]:
+    """Return what an episode shows, and the moving hand; `TaskError` where it cannot be shown."""
+    try:
+        sequence = task.sequence(_SEVERAL.sub("", episode.name))
+    except TaskError as error:
+        raise TaskError(f"is named by no sequence of {task.name}") from error
     near = body.reachable(episode.values)
     miss = 100 * float(np.linalg.norm(near - episode.values, axis=1).max())
     if not miss <= REACHABLE_CM:
-        raise RecordingError(
-            f"{file}: episode '{episode.name}': the hand is {miss:.1f} cm from what the robot's "
-            f"hand reaches, {REACHABLE_CM:g} cm are allowed"
+        raise TaskError(
+            f"leads {miss:.1f} cm from what the robot's hand reaches, "
+            f"{REACHABLE_CM:g} cm are allowed"
         )
-    return near
+    hand = moving(near, manner.rest_steps)
+    shows = sequence_in(hand, task)
+    if shows != sequence:
+        raise TaskError(f"shows {shows.name if shows else f'no sequence of {task.name}'}")
+    return sequence, hand

@@ -1,6 +1,4 @@
-"""Segmentation of a hand's path: which sequence of a task it is, and where its primitives begin."""
-
-from functools import lru_cache
+"""Segmentation of a hand's path: where the primitives of what it shows begin."""
 
 import numpy as np
 from jaxtyping import Float
@@ -8,56 +6,6 @@ from numpy import ndarray
 
 from motionese.caregiver.demonstration import Demonstration
 from motionese.task import PrimitiveSequence, Task
-
-LONGEST = 6
-"""Sequences of at most so many primitives are looked for in a path."""
-NEAR = 0.2
-"""A path is a sequence of the task if its mean distance from the sequence's way is below this share
-of the length of a stroke."""
-POINTS = 64
-"""Ways are compared at so many points."""
-
-
-def intended_way(
-    sequence: PrimitiveSequence, task: Task, points: int = POINTS
-) -> Float[ndarray, "P 3"]:
-    """Return points [m, world], evenly along a sequence's way."""
-    share = np.linspace(0.0, 1.0, points)
-    strokes = [
-        p.way(share, task.position(p.start), task.position(p.end)) for p in sequence.primitives
-    ]
-    return evenly_along(np.concatenate(strokes), points)
-
-
-def evenly_along(path: Float[ndarray, "R 3"], points: int = POINTS) -> Float[ndarray, "P 3"]:
-    """Return points at even distances along a path: its way, whatever its timing."""
-    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
-    done = np.concatenate([[0.0], np.cumsum(steps)])
-    at = np.linspace(0.0, done[-1], points)
-    return np.stack([np.interp(at, done, column) for column in path.T], axis=-1)
-
-
-def stroke_length(task: Task) -> float:
-    """Return how long a stroke is [m]: the mean over the task's primitives."""
-    ways = [intended_way(sequence, task) for sequence in task.sequences(1)]
-    return float(np.mean([np.linalg.norm(np.diff(way, axis=0), axis=1).sum() for way in ways]))
-
-
-def sequence_in(path: Float[ndarray, "T 3"], task: Task) -> PrimitiveSequence | None:
-    """Return the sequence of the task that a hand's path [m, world] is, or None.
-
-    It is the one whose way is nearest; times do not matter.
-    """
-    candidates, ways = _candidates(task)
-    apart = np.linalg.norm(ways - evenly_along(path), axis=-1).mean(-1)
-    nearest = int(apart.argmin())
-    return candidates[nearest] if apart[nearest] < NEAR * stroke_length(task) else None
-
-
-@lru_cache(maxsize=4)
-def _candidates(task: Task) -> tuple[list[PrimitiveSequence], Float[ndarray, "S P 3"]]:
-    candidates = [s for length in range(1, LONGEST + 1) for s in task.sequences(length)]
-    return candidates, np.array([intended_way(sequence, task) for sequence in candidates])
 
 
 def segmented(

@@ -89,7 +89,7 @@ class Acting(Group):
     rehearsal: bool
 
 
-class StagedTraining(Training):
+class StagedTraining(Training):  # type: ignore[metaclass]
     """Training all through a development.
 
     Attributes:

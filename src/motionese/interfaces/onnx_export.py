@@ -7,7 +7,6 @@ u it makes the next potentials and the next row. Fed with its own y it generates
 
 import json
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import ChannelError, StorageError, needs
 from motionese.files import write_whole
 from motionese.learning import Fit
@@ -28,26 +28,30 @@ OPSET, IR_VERSION = 17, 8
 TRIALS, TOLERANCE = 256, 1e-6
 """How many random steps are compared, and how far they may differ."""
 NODES: tuple[tuple[str, list[str], str, dict[str, int]], ...] = (
-    ("Slice", ["u", "context", "end"], "context_u", {}),
+    ("Slice", ["u", "context", "end", "last_axis"], "context_u", {}),
     ("Sigmoid", ["context_u"], "context_y", {}),
-    ("Concat", ["x", "context_y"], "inputs", {"axis": 0}),
-    ("MatMul", ["scaled_weights", "inputs"], "weighted", {}),
+    ("Concat", ["x", "context_y"], "inputs", {"axis": -1}),
+    ("MatMul", ["inputs", "scaled_weights"], "weighted", {}),
     ("Mul", ["kept", "u"], "kept_u", {}),
     ("Add", ["kept_u", "weighted"], "moved_u", {}),
     ("Add", ["moved_u", "scaled_bias"], "u_next", {}),
-    ("Slice", ["u_next", "first", "context"], "io_u", {}),
+    ("Slice", ["u_next", "first", "context", "last_axis"], "io_u", {}),
     ("Sigmoid", ["io_u"], "y", {}),
 )
-"""Equations (1) and (2): operator, what it takes, what it gives, its attributes."""
+"""Equations (1) and (2): operator, what it takes, what it gives, its attributes. All of them work
+along the last axis, whether there is one before it or not."""
 MEANING = """One step of a multiple-timescale recurrent network (MTRNN).
 x [D]: the present row in the unit interval: what is sensed, the y of the step before, or a mixture.
 u [N]: the potentials of all units, at first one of the initial states.
 y [D]: the prediction of the next row in the unit interval.
 u_next [N]: the potentials of the next step.
+Several states are stepped at once with x [B, D], u [B, N], which give y [B, D], u_next [B, N]:
+no shape is declared, so that onnxruntime takes both.
 A channel's range low to high lies at 0.1 to 0.9 of the unit interval; x is clipped to 0.02 to 0.98.
 The metadata entry 'motionese' (JSON) holds channels, rate, levels and initial states."""
 
 
+@refusing()
 def export_onnx(path: str | Path, trained: Fit | MTRNN) -> float:
     """Write one step of a network as an ONNX model, if it agrees with the network.
 
@@ -101,20 +105,32 @@ def _model(network: MTRNN, facts: Mapping[str, Any]) -> bytes:
         from onnx import TensorProto, checker, helper
     except ImportError as error:
         raise needs("onnx", "onnx", "the export to ONNX") from error
-    vector = partial(helper.make_tensor_value_info, elem_type=TensorProto.FLOAT)
-    inputs = [vector("x", shape=[network.io_size]), vector("u", shape=[network.size])]
-    outputs = [vector("y", shape=[network.io_size]), vector("u_next", shape=[network.size])]
     nodes = [helper.make_node(kind, takes, [gives], **how) for kind, takes, gives, how in NODES]
-    constants = _constants(network)
-    model = helper.make_model(
-        helper.make_graph(nodes, "motionese_step", inputs, outputs, constants, doc_string=MEANING),
-        opset_imports=[helper.make_opsetid("", OPSET)],
-        ir_version=IR_VERSION,
-        producer_name="motionese",
-        doc_string=MEANING,
-    )
-    helper.set_model_props(model, {"motionese": json.dumps(facts)})
-    checker.check_model(model, full_check=True)
+    sizes = {"x": network.io_size, "u": network.size, "y": network.io_size, "u_next": network.size}
+    for leading in ((), ("B",)):
+        values = [
+            helper.make_tensor_value_info(name, TensorProto.FLOAT, [*leading, size])
+            for name, size in sizes.items()
+        ]
+        model = helper.make_model(
+            helper.make_graph(
+                nodes,
+                "motionese_step",
+                inputs=values[:2],
+                outputs=values[2:],
+                initializer=_constants(network),
+                doc_string=MEANING,
+            ),
+            opset_imports=[helper.make_opsetid("", OPSET)],
+            ir_version=IR_VERSION,
+            producer_name="motionese",
+            doc_string=MEANING,
+        )
+        helper.set_model_props(model, {"motionese": json.dumps(facts)})
+        checker.check_model(model, full_check=True)
+    # It holds for one state and for several; a shape that is declared, onnxruntime insists on.
+    for value in [*model.graph.input, *model.graph.output]:
+        value.type.tensor_type.ClearField("shape")
     return bytes(model.SerializeToString())
 
 
@@ -124,18 +140,18 @@ def _constants(network: MTRNN) -> list[Any]:
 
     rate = 1 / np.asarray(network.tau, dtype=np.float64)
     parameters = {
-        "scaled_weights": rate[:, None] * np.asarray(network.wired_weights()),
+        "scaled_weights": (rate[:, None] * np.asarray(network.wired_weights())).T,
         "scaled_bias": rate * np.asarray(network.bias),
         "kept": 1 - rate,
     }
-    places = {"first": 0, "context": network.io_size, "end": network.size}
+    places = {"first": 0, "context": network.io_size, "end": network.size, "last_axis": -1}
     arrays = {name: value.astype(np.float32) for name, value in parameters.items()}
     arrays |= {name: np.array([place], np.int64) for name, place in places.items()}
     return [numpy_helper.from_array(value, name) for name, value in arrays.items()]
 
 
 def _difference(content: bytes, network: MTRNN) -> float:
-    """Compare steps from random inputs and potentials, one by one as a robot takes them."""
+    """Compare steps from random inputs and potentials, one by one and all at once."""
     try:
         import onnxruntime
     except ImportError as error:
@@ -145,7 +161,8 @@ def _difference(content: bytes, network: MTRNN) -> float:
     x = rng.uniform(CLIP_LOW, CLIP_HIGH, (TRIALS, network.io_size)).astype(np.float32)
     u = rng.normal(0.0, 3.0, (TRIALS, network.size)).astype(np.float32)
     steps = [session.run(["y", "u_next"], {"x": x[i], "u": u[i]}) for i in range(TRIALS)]
-    y, following = (np.stack(outputs) for outputs in zip(*steps, strict=True))
+    each = (np.stack(outputs) for outputs in zip(*steps, strict=True))
+    y, following = map(np.stack, zip(each, session.run(None, {"x": x, "u": u}), strict=True))
     with jax.enable_x64(True):
         double = jax.tree.map(lambda array: array.astype(jnp.float64), network)
         exact = np.asarray(step(double, jnp.asarray(u, jnp.float64), jnp.asarray(x), 1.0))

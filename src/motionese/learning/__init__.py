@@ -1,5 +1,6 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
+from motionese.learning.diagnosis import Diagnosis, diagnose
 from motionese.learning.fit import Fit
 from motionese.learning.generation.chain import generate_sequence
 from motionese.learning.generation.generate import activity, generate, placed
@@ -18,6 +19,7 @@ from motionese.learning.training.train import train
 
 __all__ = [
     "Batch",
+    "Diagnosis",
     "Ending",
     "Fit",
     "Memory",
@@ -28,6 +30,7 @@ __all__ = [
     "Status",
     "Training",
     "activity",
+    "diagnose",
     "generate",
     "generate_sequence",
     "load",

@@ -1,11 +1,14 @@
 """What training leaves: a network, the initial states of its motions, and how good they are."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import NO_MOTION, SettingError, unknown
+from motionese.arguments import place_of, refusing
+from motionese.errors import HELD_OUT, NO_MOTION, SettingError
 from motionese.learning.accuracy import share_of_range
 from motionese.learning.memory import Memory
 from motionese.learning.status import Status
@@ -51,15 +54,39 @@ class Fit:
         """The motions it learned, as recognition starts from them."""
         return Memory(self.names, self.initial_states, self.closed_loop_error)
 
-    def index(self, name: str) -> int:
-        """Return which motion has this name; `SettingError` if none has."""
+    def after(self, earlier: "Fit") -> "Fit":
+        """Return the fit of a training that went on from an earlier fit, with all its losses."""
+        before = len(earlier.losses)
+        return replace(
+            self,
+            losses=np.concatenate([earlier.losses, self.losses]),
+            validation_losses=np.concatenate([earlier.validation_losses, self.validation_losses]),
+            status=replace(self.status, sentence=f"{self.status.sentence}, after {before} before"),
+        )
+
+    @refusing()
+    def index(self, motion: str | int) -> int:
+        """Return the place of a motion by its name or place; `SettingError` if there is none."""
         if not self.names:
             raise SettingError(NO_MOTION)
-        if name not in self.names:
-            raise SettingError(unknown("motion", name, self.names))
-        return self.names.index(name)
+        if str(motion) in self.validation_names:
+            raise SettingError(f"motion '{motion}' {HELD_OUT}")
+        return place_of("motion", motion, self.names, SettingError)
 
+    def states_of(self, motions: Sequence[str]) -> Float[ndarray, "M N"]:
+        """Return the initial states of motions by name; 0 of those that it did not learn."""
+        known = dict(zip(self.names, self.initial_states, strict=True))
+        nothing = np.zeros(self.network.size)
+        return np.array([known.get(name, nothing) for name in motions])
+
+    @refusing()
     def share(self, errors: Float[ndarray, "*batch D"]) -> float:
         """Return errors in the channels' units as one share of the channels' ranges."""
         assert self.network.channels is not None, "a trained network carries channels"
+        errors = np.asarray(errors, dtype=np.float64)
+        if errors.shape[-1:] != (self.network.io_size,):
+            raise SettingError(
+                f"errors must have one value per channel ({self.network.io_size}), "
+                f"got shape {errors.shape}"
+            )
         return share_of_range(errors, self.network.channels)

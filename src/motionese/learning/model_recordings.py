@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import ChannelError, RecordingError
 from motionese.learning.fit import Fit
@@ -25,6 +26,7 @@ from motionese.recordings import (
 )
 
 
+@refusing()
 def read_for(
     fit: Fit,
     path: str | Path,
@@ -36,17 +38,17 @@ def read_for(
     """Read recordings as motions over a model's channels, in its order, with its ranges.
 
     A channel that is not needed may be missing; it is then not observed. Columns that are no
-    channel of the model are left aside.
+    channel of the model are left aside; those in another order are put into the model's.
 
     Args:
         fit: The model.
         path: The file or folder.
-        needed: Channels that must be there; all where left out.
+        needed: Channels that must be there; where left out, any one of the model's.
         format: As `Motions.read` takes it.
         given: What else `Motions.read` takes; ranges are the model's.
 
     Raises:
-        ChannelError: A needed channel is missing, or they stand in another order.
+        ChannelError: A needed channel is missing, or all are.
         RecordingError: Another rate than the model's, or what `Motions.read` refuses.
     """
     channels = fit.network.channels
@@ -57,24 +59,19 @@ def read_for(
     taken = {"channels": wish.channels or found.channels, "exclude": wish.exclude}
     present = chosen(found, choose(**taken)).channels
     own = tuple(name for name in present if name in channels.names)
-    needed = channels.names if needed is None else needed
-    missing = [name for name in needed if name not in own]
-    if missing:
+    missing = [name for name in needed or channels.names if name not in own]
+    if missing and (needed is not None or not own):
         raise ChannelError(
-            f"{path}: the model's channel '{missing[0]}' is missing; "
-            f"the model needs {', '.join(needed)}, here are {', '.join(own) or 'none of them'}"
+            f"{path}: the model's channel '{missing[0]}' is missing; the model needs "
+            f"{', '.join(needed or channels.names)}, here are {', '.join(own) or 'none of them'}"
         )
     order = tuple(name for name in channels.names if name in own)
-    if own != order:
-        raise ChannelError(
-            f"{path}: its channels stand in another order than the model's: "
-            f"{', '.join(own)}; name them in the model's: --channels {','.join(order)}"
-        )
     ranges = {c.name: (c.low, c.high) for c in channels if c.name in own}
     units = {c.name: c.unit for c in channels}
-    found = in_units(chosen(found, choose(units=wish.units, channels=own)), units)
+    found = found.found(*_compared(found, own, order, missing))
+    found = in_units(chosen(found, choose(units=wish.units, channels=order)), units)
     found = found.found(*_far_out(found, ranges))
-    own_way = {"channels": own, "exclude": (), "ranges": ranges, "units": None}
+    own_way = {"channels": order, "exclude": (), "ranges": ranges, "units": None}
     ready = prepare(found, choose(**{**given, **own_way}))
     motions = Motions.from_recording(ready)
     if abs(motions.rate_hz - fit.rate_hz) > SAME_RATE * fit.rate_hz:
@@ -99,6 +96,20 @@ def _far_out(recording: Recording, ranges: Mapping[str, tuple[float, float]]) ->
             what = f"mostly far beyond the model's {low:.3g} to {high:.3g}: is it in another unit?"
             remedy = f"--unit {name}=UNIT tells in which"
             findings.append(Finding("unit", recording.source, what, remedy, channel=name))
+    return findings
+
+
+def _compared(
+    found: Recording, own: Sequence[str], order: Sequence[str], missing: Sequence[str]
+) -> list[Finding]:
+    """Return what a recording's channels have to do with the model's."""
+    findings = []
+    if own != order:
+        told = f"its channels are {', '.join(own)}; taken in the model's order {', '.join(order)}"
+        findings.append(Finding("converted", found.source, told))
+    if missing:
+        count, told = len(missing), "a channel of the model, not in the recording; not looked at"
+        findings.append(Finding("left out", found.source, told, channel=missing[0], count=count))
     return findings
 
 

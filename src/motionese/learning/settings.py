@@ -1,8 +1,10 @@
 """Settings of training and of recognition: typed, checked where they are read."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from motionese.errors import SettingError, kind_of, unknown
 
 Optimiser = Literal["descent", "momentum", "adam"]
 Schedule = Literal["constant", "cosine"]
@@ -15,7 +17,22 @@ Bound = NotNegative | ByLevel
 Rate = Annotated[float, Field(ge=0, le=100)]
 
 
-class Training(BaseModel):
+class _InASentence(type(BaseModel)):  # type: ignore[misc]
+    """What settings are made by: a wrong one is refused in one sentence."""
+
+    def __call__(cls, *args: Any, **given: Any) -> Any:
+        try:
+            return super().__call__(*args, **given)
+        except ValidationError as error:
+            first = error.errors()[0]
+            name = str(first["loc"][0]) if first["loc"] else ""
+            if first["type"] == "extra_forbidden":
+                raise SettingError(unknown("setting", name, cls.model_fields)) from error
+            what = first["msg"][:1].lower() + first["msg"][1:]
+            raise SettingError(f"setting {name} = {kind_of(given.get(name))}: {what}") from error
+
+
+class Training(BaseModel, metaclass=_InASentence):
     """How weights and initial states are trained (equations (3)–(5)).
 
     The defaults suit recordings of any length and number; the imitation loop has a regime of its
@@ -68,7 +85,7 @@ class Training(BaseModel):
     tolerance: float = Field(default=1e-3, ge=0, lt=1)
 
 
-class Recognition(BaseModel):
+class Recognition(BaseModel, metaclass=_InASentence):
     """How the initial states of an observed motion are found, the weights frozen.
 
     Attributes:

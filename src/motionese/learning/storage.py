@@ -8,6 +8,7 @@ import numpy as np
 from numpy import ndarray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from motionese.arguments import refusing
 from motionese.errors import CHECKPOINT_BEFORE, StorageError, unknown
 from motionese.learning.fit import Fit
 from motionese.learning.status import Ending, Status
@@ -40,16 +41,19 @@ class _Facts(BaseModel):
     further: dict[str, Any] = {}
 
 
+@refusing(StorageError)
 def save(path: str | Path, fit: Fit) -> None:
     """Write a fit to one safetensors file, whole or not at all."""
     write_fit(path, fit, {}, {})
 
 
+@refusing(StorageError)
 def load(path: str | Path) -> Fit:
     """Read what `save` or `write_fit` wrote; `StorageError` if it is not a fit, or cut short."""
     return read_fit(path)[0]
 
 
+@refusing(StorageError)
 def write_fit(
     path: str | Path, fit: Fit, arrays: Mapping[str, ndarray], facts: Mapping[str, Any]
 ) -> None:
@@ -66,6 +70,7 @@ def write_fit(
     write_network(Path(path), fit.network, tensors, {**own, FURTHER: dict(facts)} if facts else own)
 
 
+@refusing(StorageError)
 def read_fit(path: str | Path) -> tuple[Fit, dict[str, ndarray], dict[str, Any]]:
     """Return a fit, the further arrays and the further facts, as `write_fit` wrote them.
 

@@ -8,6 +8,7 @@ from motionese.network.rollout import rollout
 from motionese.network.sensitivity import sensitivities
 from motionese.network.step import step, stepper
 from motionese.network.storage import read_network, write_network
+from motionese.network.trained import Trained, network_of
 from motionese.network.wiring import Scale, wiring
 
 __all__ = [
@@ -16,7 +17,9 @@ __all__ = [
     "Level",
     "Prediction",
     "Scale",
+    "Trained",
     "grow",
+    "network_of",
     "predict",
     "read_network",
     "read_out",

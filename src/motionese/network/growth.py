@@ -6,14 +6,17 @@ from dataclasses import replace
 import jax.numpy as jnp
 from jaxtyping import Array
 
+from motionese.arguments import refusing
 from motionese.errors import SettingError
 from motionese.network.levels import Level, named
 from motionese.network.mtrnn import MTRNN
+from motionese.network.trained import Trained, network_of
 from motionese.network.wiring import Scale, draw_weights
 
 
+@refusing()
 def grow(
-    network: MTRNN,
+    network: MTRNN | Trained,
     level: Level,
     *,
     key: Array,
@@ -24,7 +27,7 @@ def grow(
     """Open a further level above a network; every weight there was is kept.
 
     Args:
-        network: The network as learned so far.
+        network: The network as learned so far, or what training left of it.
         level: The new level; its units are the grown network's last.
         key: JAX random key of the new weights.
         influence: Gain of the new level on the level below: its weights there are multiplied by
@@ -34,6 +37,7 @@ def grow(
     """
     if not (math.isfinite(influence) and influence >= 0):
         raise SettingError(f"the influence of a new level must be ≥ 0, got {influence}")
+    network = network_of(network)
     old, sizes, read_out = network.size, (*network.sizes, level.size), network.variance_weights
     opened = named([*network.levels, level])[-1]
     drawn = draw_weights(sizes, gain, scale, key, kept=len(network.sizes))

@@ -3,6 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from motionese.arguments import refusing
 from motionese.errors import SettingError
 
 LONGEST = 1e30
@@ -11,6 +14,7 @@ DEFAULT_NAMES = ("io", "cf", "cs")
 """Input–output, fast context, slow context: the paper's IO, Cf and Cs."""
 
 
+@refusing()
 @dataclass(frozen=True)
 class Level:
     """A level as it is drawn: `size` units with time constant τ [steps].
@@ -24,12 +28,16 @@ class Level:
     """
 
     size: int
-    tau: float | tuple[float, ...]
+    tau: float | Sequence[float]
     name: str = ""
 
     def __post_init__(self) -> None:
         called = f"level '{self.name}'" if self.name else "a level"
-        if isinstance(self.size, bool) or not isinstance(self.size, int) or self.size < 1:
+        # Whatever they were given as: levels are compared, and written as JSON.
+        object.__setattr__(self, "size", int(self.size))
+        taus = np.asarray(self.tau, dtype=np.float64)
+        object.__setattr__(self, "tau", tuple(taus.tolist()) if taus.ndim else taus.item())
+        if self.size < 1:
             raise SettingError(f"{called}: size must be a whole number ≥ 1, got {self.size}")
         if isinstance(self.tau, Sequence) and len(self.tau) != self.size:
             raise SettingError(
@@ -45,7 +53,7 @@ class Level:
     @property
     def taus(self) -> tuple[float, ...]:
         """The time constant of every unit [steps]."""
-        return self.tau if isinstance(self.tau, tuple) else (float(self.tau),) * self.size
+        return (self.tau,) * self.size if isinstance(self.tau, float) else tuple(self.tau)
 
 
 def named(levels: Sequence[Level]) -> tuple[Level, ...]:

@@ -1,8 +1,9 @@
 """The multiple-timescale recurrent network: weights, time constants, levels, channels."""
 
+import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import MISSING, replace
 from typing import Any, Literal, get_args
 
 import equinox as eqx
@@ -10,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
 from motionese.network.levels import Level, named
@@ -37,7 +39,8 @@ def _array(value: Any) -> Array | None:
 class MTRNN(eqx.Module):
     """An MTRNN (Yamashita & Tani 2008) of any number of levels; the first is IO.
 
-    `MTRNN.draw` draws one; `dataclasses.replace` gives the same network with other fields.
+    `MTRNN.draw` draws one, as does `MTRNN(levels, key=key)`, with the arguments of `draw`;
+    `dataclasses.replace` gives the same network with other fields.
 
     Attributes:
         weights: `weights[i, j]` is w_ij, from unit j to unit i; 0 where nothing is wired. [N, N]
@@ -69,6 +72,20 @@ class MTRNN(eqx.Module):
     variance_weights: Float[Array, "D C"] | None = eqx.field(converter=_array, default=None)
     variance_bias: Float[Array, " D"] | None = eqx.field(converter=_array, default=None)
 
+    def __init__(self, levels: Any = None, *, key: Any = None, **given: Any) -> None:
+        fields = {f.name: f for f in dataclasses.fields(self)}
+        if levels is not None or key is not None:
+            drawn = MTRNN.draw(levels, key=key, **given)
+            given = {name: getattr(drawn, name) for name in fields}
+        missing = [n for n, f in fields.items() if n not in given and f.default is MISSING]
+        if missing or not fields.keys() >= given.keys():
+            raise SettingError(
+                "an MTRNN is drawn from levels and a key, MTRNN.draw(levels, key=key), "
+                f"or made of all its fields: {', '.join(fields)}"
+            )
+        for name, field in fields.items():
+            setattr(self, name, given.get(name, field.default))
+
     def __check_init__(self) -> None:
         if len(self.names) < 2:
             raise SettingError(
@@ -89,6 +106,7 @@ class MTRNN(eqx.Module):
                 raise SettingError(f"{name} must have shape {shape}, got {got}")
 
     @classmethod
+    @refusing()
     def draw(
         cls,
         levels: Sequence[Level],
@@ -114,6 +132,8 @@ class MTRNN(eqx.Module):
         """
         if not (math.isfinite(gain) and gain >= 0):
             raise SettingError(f"the gain of the initial weights must be ≥ 0, got {gain}")
+        if not levels:
+            raise SettingError("an MTRNN has the level io and at least one context, got none")
         levels = named(levels)
         sizes = tuple(level.size for level in levels)
         weights = draw_weights(sizes, gain, scale, key)

@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import ChannelError, RecordingError, SettingError, unknown
+from motionese.errors import ChannelError, RecordingError, SettingError, kind_of, unknown
+from motionese.recordings.finding import Finding
 from motionese.recordings.recording import Recording
 
 MARGIN = 0.05
@@ -85,7 +86,7 @@ def choose(**given: Any) -> Choice:
             raise SettingError(unknown("setting", name, Choice.model_fields)) from error
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name} = {first['input']!r}: {what}") from error
+        raise SettingError(f"setting {name} = {kind_of(first['input'])}: {what}") from error
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:
@@ -104,6 +105,13 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         raise ChannelError(
             f"{recording.source}: no channel is left; there are: {', '.join(everything)}"
         )
+
+    def is_told(finding: Finding) -> bool:
+        """Tell whether it still matters: why a channel is not taken, unless the user says so."""
+        if finding.kind == "column" and finding.channel in everything:
+            return wanted is None and finding.channel not in dropped
+        return finding.channel not in everything or finding.channel in kept
+
     columns = [everything.index(c) for c in kept]
     units = {c: recording.units[i] for c, i in zip(kept, columns, strict=True)}
     for pattern, unit in choice.units.items():
@@ -115,7 +123,7 @@ def chosen(recording: Recording, choice: Choice) -> Recording:
         ranges={c: r for c, r in recording.ranges.items() if c in kept},
         binary={c: two for c, two in recording.binary.items() if c in kept},
         usual=kept,
-        findings=tuple(f for f in recording.findings if f.channel not in {*everything} - {*kept}),
+        findings=tuple(filter(is_told, recording.findings)),
     )
 
 
@@ -176,6 +184,16 @@ def matching(
         # A name first: those of messages hold brackets, as in "/joints.position[0]".
         fits = [pattern] if pattern in names else [n for n in names if fnmatchcase(n, pattern)]
         if not fits:
-            raise ChannelError(f"{recording.source}: {unknown('channel', pattern, names)}")
+            raise ChannelError(_no_channel(recording, pattern, names))
         found |= dict.fromkeys(fits)
     return tuple(found)
+
+
+def _no_channel(recording: Recording, pattern: str, names: tuple[str, ...]) -> str:
+    """Return the sentence for what is no channel: why it is none, where reading found that."""
+    for finding in recording.findings:
+        if finding.channel not in ("", *recording.channels) and fnmatchcase(
+            finding.channel, pattern
+        ):
+            return f"{finding.sentence}; there are: {', '.join(names)}"
+    return f"{recording.source}: {unknown('channel', pattern, names)}"

@@ -11,13 +11,15 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
 
 from motionese.errors import RecordingError
 from motionese.recordings import quaternions
 from motionese.recordings.angles import TURNS, turn_of, unwrapped, wraps
 from motionese.recordings.choice import Choice
 from motionese.recordings.finding import Finding
-from motionese.recordings.leaps import WIDE, leaps, spikes, usual_width
+from motionese.recordings.leaps import ENOUGH, WIDE, leaps, spikes, usual_width
 from motionese.recordings.recording import Episode, Recording
 from motionese.recordings.series import largest_steps, series_of, with_columns
 
@@ -46,9 +48,11 @@ def examined(recording: Recording, choice: Choice) -> Recording:
     """
     given = quaternions.chosen_columns(recording, choice)
     recording = quaternions.turned_back(unwrapped(recording, choice), given)
-    findings, smooth = _wrapping(recording)
+    steps = largest_steps(recording)
+    findings, smooth = _wrapping(recording, steps)
     signs, smooth = _changing_signs(smooth)
-    steps = largest_steps(smooth)
+    if findings or signs:
+        steps = largest_steps(smooth)
     places = {n: _places(smooth, c, float(steps[c])) for c, n in enumerate(recording.channels)}
     glued = _glued(recording, places)
     places = {n: _unusual(recording, each, glued) for n, each in places.items()}
@@ -64,10 +68,12 @@ def examined(recording: Recording, choice: Choice) -> Recording:
     return recording.found(*findings)
 
 
-def _wrapping(recording: Recording) -> tuple[list[Finding], Recording]:
+def _wrapping(
+    recording: Recording, largest: Float[ndarray, " D"]
+) -> tuple[list[Finding], Recording]:
     """Return what is told of angles that wrap, and the recording as if they did not."""
     findings, changed = [], {}
-    for column in np.flatnonzero(largest_steps(recording) > min(TURNS) / 2).tolist():
+    for column in np.flatnonzero(largest > min(TURNS) / 2).tolist():
         name, series = recording.channels[column], series_of(recording, column)
         if (turn := turn_of([s.values for s in series], recording.units[column])) is None:
             continue
@@ -125,6 +131,10 @@ def _changing_signs(recording: Recording) -> tuple[list[Finding], Recording]:
 
 def _places(recording: Recording, column: int, largest: float) -> list[_Place]:
     """Return where a channel leaps; a spike's leaps there and back are one place."""
+    every = sum(len(e.values) for e in recording.episodes) // ENOUGH
+    # A few of very many rows show of most channels that they cannot leap.
+    if every > 1 and largest < WIDE / 2 * usual_width(series_of(recording, column, every)):
+        return []
     series = series_of(recording, column)
     found = leaps(series) if largest >= WIDE * usual_width(series) else []
     there_and_back = spikes(found, series)

@@ -1,7 +1,8 @@
 """What the user of a recording should know before it is learned from, with where and a remedy."""
 
+import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -51,6 +52,18 @@ class Finding:
         remedy = f"; {self.remedy}" if self.remedy else ""
         text = f"{self.source}: {place}{': ' if place else ''}{self.what}{again}{remedy}"
         return " ".join(text.split())
+
+
+def merged(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return the findings with those of one kind and channel as one, the first of them, counted."""
+    first: dict[tuple[str, str, str], Finding] = {}
+    for finding in findings:
+        # What differs between two places of the same thing is a number or a file.
+        alike = (finding.kind, finding.channel, re.sub(r"[0-9.]+", "", finding.what))
+        found = first.get(alike)
+        count = finding.count + (found.count if found else 0)
+        first[alike] = replace(found or finding, count=count)
+    return tuple(first.values())
 
 
 def refuse_any(findings: Iterable[Finding]) -> None:

@@ -25,8 +25,11 @@ def even(recording: Recording, rate_hz: float) -> Recording:
 
     Rows that are on the grid already are kept bit for bit. Otherwise every channel is
     interpolated linearly between its own observed samples; within a hole nothing is observed.
+    So it is, too, where a file tells both a rate and times: rows are there whenever any channel
+    was recorded, and a slower one has no gaps but a rate of its own.
     """
-    on_grid = recording.map(lambda e: replace(_on_grid(recording.source, e, rate_hz), times=None))
+    source, is_log = recording.source, recording.rate_hz is not None
+    on_grid = recording.map(lambda e: replace(_on_grid(source, e, rate_hz, is_log), times=None))
     return replace(on_grid, rate_hz=rate_hz)
 
 
@@ -50,12 +53,14 @@ def resampled(recording: Recording, rate_hz: float) -> Recording:
     return replace(changed, rate_hz=rate_hz)
 
 
-def _on_grid(source: Path, episode: Episode, rate_hz: float) -> Episode:
+def _on_grid(source: Path, episode: Episode, rate_hz: float, is_log: bool) -> Episode:
     if episode.times is None or len(episode.times) < 2:
         return episode
     at = (episode.times - episode.times[0]) * rate_hz
     if np.abs(at - np.arange(len(at))).max() <= JITTER:
-        return episode
+        if not is_log:
+            return episode
+        at = np.arange(len(at), dtype=np.float64)
     if at[-1] > LONGEST * len(at):
         raise RecordingError(
             f"{source}: episode '{episode.name}' has {len(at)} rows, "

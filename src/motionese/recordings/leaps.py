@@ -31,6 +31,8 @@ MOVED = 0.05
 """Share of its usual range from which on a step counts when its nature is judged."""
 LONGEST_SPIKE = 3
 """Rows of the longest excursion that counts as a spike, there and back by a leap."""
+ENOUGH = 10_000
+"""Values of a channel that tell its usual range."""
 FEWEST = 8
 """Rows of the shortest series that is judged."""
 
@@ -122,5 +124,6 @@ def _calm(velocities: Float[ndarray, " N"]) -> Bool[ndarray, " N"]:
 def usual_width(series: Sequence[Series]) -> float:
     """Return the range of nearly all values [their unit], whatever a few of them are."""
     known = np.concatenate([s.values for s in series])
+    known = known[:: max(len(known) // ENOUGH, 1)]
     low, high = np.quantile(known, (USUAL_LOW, USUAL_HIGH)) if len(known) else (0.0, 0.0)
     return float(high - low)

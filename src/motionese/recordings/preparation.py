@@ -17,6 +17,9 @@ from motionese.recordings.grid import even, resampled
 from motionese.recordings.rate import of_one_rate, rate_of
 from motionese.recordings.recording import LARGEST, Episode, Recording
 
+BLOCK = 512
+"""Rows in which a movement is sought at a time: most begin early."""
+
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
@@ -148,11 +151,12 @@ def range_of(name: str, seen: Float[ndarray, " K"], margin: float) -> tuple[floa
 def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float, float]]:
     """Return the range of every channel: given by the user, told by the file, or of the data."""
     ranges, still, told = given_ranges(recording, choice), [], ""
+    seen = list(map(_extremes, recording.episodes))
     for column, name in enumerate(recording.channels):
         if name not in ranges:
-            seen = [e.values[e.observed[:, column], column] for e in recording.episodes]
+            here = np.concatenate([each[column] for each in seen])
             try:
-                ranges[name] = range_of(name, np.concatenate(seen), choice.margin)
+                ranges[name] = range_of(name, here, choice.margin)
             except ChannelError as error:
                 still.append(name)
                 told = told or str(error)
@@ -165,13 +169,25 @@ def all_ranges(recording: Recording, choice: Choice) -> Mapping[str, tuple[float
     return {name: ranges[name] for name in recording.channels}
 
 
+def _extremes(episode: Episode) -> list[Float[ndarray, " K"]]:
+    """Return what was observed of every channel, or its lowest and highest alone."""
+    values, observed = episode.values, episode.observed
+    if len(values) and observed.all():
+        return list(np.stack([values.min(axis=0), values.max(axis=0)], axis=1))
+    return [column[seen] for column, seen in zip(values.T, observed.T, strict=True)]
+
+
 def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     """Return the rows before the last one that is still at its channels' first values."""
     values, observed = episode.values, episode.observed
     if not len(values):
         return 0
     first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
-    # What was not observed may be NaN or infinite.
-    with np.errstate(invalid="ignore"):
-        moved = ((np.abs(values - first) > limits) & observed).any(axis=1)
-    return max(int(np.argmax(moved)) - 1, 0) if moved.any() else len(values) - 1
+    for start in range(0, len(values), BLOCK):
+        rows = slice(start, start + BLOCK)
+        # What was not observed may be NaN or infinite.
+        with np.errstate(invalid="ignore"):
+            moved = ((np.abs(values[rows] - first) > limits) & observed[rows]).any(axis=1)
+        if moved.any():
+            return max(start + int(np.argmax(moved)) - 1, 0)
+    return len(values) - 1

@@ -42,6 +42,9 @@ class Episode:
         self, rows: slice = slice(None), columns: slice | list[int] = slice(None)
     ) -> "Episode":
         """Return some rows of an evenly spaced episode, or some columns of any."""
+        # Columns side by side need no copy.
+        if isinstance(columns, list) and columns[:1] + [c + 1 for c in columns[:-1]] == columns:
+            columns = slice(columns[0], columns[-1] + 1) if columns else slice(0)
         values, observed = self.values[rows, columns], self.observed[rows, columns]
         return replace(self, values=values, observed=observed)
 
@@ -97,7 +100,8 @@ class Recording:
     def first(self, which: Callable[[Episode], Bool[ndarray, "T D"]]) -> tuple[str, float] | None:
         """Return in words where the first of certain cells is, and its value."""
         for episode in self.episodes:
-            for row, column in np.argwhere(which(episode)):
+            here = which(episode)
+            for row, column in np.argwhere(here) if here.any() else ():
                 where = f"episode '{episode.name}', row {row}, channel '{self.channels[column]}'"
                 return where, float(episode.values[row, column])
         return None

@@ -8,7 +8,8 @@ from typing import Any
 from unicodedata import category
 
 from motionese.errors import RecordingError, SettingError, unknown
-from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npz
+from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npy, npz, rosbag
+from motionese.recordings.nature import judged
 from motionese.recordings.recording import Recording
 
 
@@ -25,6 +26,9 @@ class Format:
         suffixes: Of a file in this format.
         inside: Patterns of a file that a folder in this format holds.
         options: Which of `OPTIONS` its `read` takes.
+        perhaps: Patterns of a file that a folder in this format holds if it is in no other.
+        chosen: Whether its channels were chosen when it was written.
+        written: Whether the module has a `write`.
     """
 
     what: str
@@ -32,27 +36,46 @@ class Format:
     suffixes: tuple[str, ...] = ()
     inside: tuple[str, ...] = ()
     options: tuple[str, ...] = ()
+    perhaps: tuple[str, ...] = ()
+    chosen: bool = False
+    written: bool = True
 
 
 OPTIONS = {
     "episode": "the column that names the episode",
     "time": "the column that holds the time",
     "columns": "the names of columns without a header",
+    "topics": "the topics that are read",
+    "pause": "the silence that cuts a log into takes",
+    "marker": "the topic that marks the takes of a log",
 }
 """What a user may say of a file, beside its format, of what not every format has."""
 JOINTS = tuple(f"{folder}joints.npy" for folder in ("", "train/", "test/"))
-TABLES = "*.[cC][sS][vV]", "*.[tT][sS][vV]"
+BAGS = (
+    (".bag", ".db3", ".zstd", ".active"),
+    tuple(
+        f"{i}*{end}" for i in ("", "*/") for end in (".bag", ".db3", ".mcap", ".zstd", ".active")
+    ),
+)
+OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 HDF5 = Format(
     f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE
 )
 FORMATS = {
-    "npz": Format("motionese's own .npz", npz, (".npz",)),
+    "npz": Format(
+        "motionese's own .npz or another", npz, (".npz",), options=("columns",), chosen=True
+    ),
     "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "hdf5": HDF5,
     "robomimic": HDF5,
-    "mcap": Format(".mcap with JSON messages or a folder of them", mcap, (".mcap",), ("*.mcap",)),
-    "csv": Format(".csv or a folder of them", csv, (*csv.SUFFIXES, ".txt"), TABLES, (*OPTIONS,)),
+    "mcap": Format(".mcap or a folder of them", mcap, (".mcap",), ("*.mcap",), OF_LOGS),
+    "csv": Format(
+        *(".csv or a folder of them", csv, csv.SUFFIXES, csv.patterns(csv.SURE), OF_TABLES),
+        perhaps=csv.patterns(csv.SUFFIXES),
+    ),
+    "npy": Format(".npy or a folder of them", npy, (".npy",), ("*.npy",), ("columns",)),
+    "rosbag": Format("a ROS bag or a folder of them", rosbag, *BAGS, OF_LOGS, written=False),
 }
 """By name, in the order in which a folder is tried."""
 CONTROL = ("Cc", "Cs")
@@ -88,7 +111,8 @@ def read(path: str | Path, format: str | None = None, **options: Any) -> Recordi
             raise SettingError(
                 f"{path}: {option} is {OPTIONS[option]}, of {takes} alone; this is {name}"
             )
-    return _checked(FORMATS[name].module.read(path, **given))
+    recording = _checked(FORMATS[name].module.read(path, **given))
+    return recording if FORMATS[name].chosen else judged(recording)
 
 
 def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
@@ -100,11 +124,17 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
     """
     path = Path(path)
     name = _named(format) or _by_suffix(path)
+    written = [n for n, f in FORMATS.items() if f.written]
     if name is None:
-        suffixes = dict.fromkeys(s for known in FORMATS.values() for s in known.suffixes)
+        suffixes = dict.fromkeys(s for n in written for s in FORMATS[n].suffixes)
         raise SettingError(
             f"{path}: its name does not tell the format; end it in {', '.join(suffixes)}, "
-            f"or name the format (--to), one of {', '.join(FORMATS)}"
+            f"or name the format (--to), one of {', '.join(written)}"
+        )
+    if name not in written:
+        raise RecordingError(
+            f"{path}: {FORMATS[name].what} is read, not written; "
+            f"--to is one of {', '.join(written)}"
         )
     FORMATS[name].module.write(path, _checked(recording))
 
@@ -116,7 +146,11 @@ def _named(format: str | None) -> str | None:
 
 
 def _found(path: Path) -> str:
-    holding = (n for n, f in FORMATS.items() if any(any(path.glob(p)) for p in f.inside))
+    rules = [
+        *((n, f.inside) for n, f in FORMATS.items()),
+        *((n, f.perhaps) for n, f in FORMATS.items()),
+    ]
+    holding = (n for n, patterns in rules if any(any(path.glob(p)) for p in patterns))
     name = next(holding, None) if path.is_dir() else _by_suffix(path)
     if name is None:
         known = ", ".join(dict.fromkeys(f.what for f in FORMATS.values()))

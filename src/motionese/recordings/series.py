@@ -10,6 +10,9 @@ from numpy import ndarray
 
 from motionese.recordings.recording import LARGEST, Recording
 
+BLOCK = 512
+"""Rows that are looked at together, few enough to stay near the processor."""
+
 
 class Series(NamedTuple):
     """One channel in one episode, where it was observed and is finite.
@@ -25,14 +28,17 @@ class Series(NamedTuple):
     times: Float[ndarray, " K"]
 
 
-def series_of(recording: Recording, column: int) -> list[Series]:
-    """Return a channel's series in every episode."""
+def series_of(recording: Recording, column: int, every: int = 1) -> list[Series]:
+    """Return a channel's series in every episode, of all rows or of one in `every`."""
     series = []
     for episode in recording.episodes:
-        values = episode.values[:, column]
-        rows = np.flatnonzero(episode.observed[:, column] & (np.abs(values) <= LARGEST))
+        # A column that lies together is gone through several times as fast.
+        values = np.ascontiguousarray(episode.values[::every, column])
+        known = episode.observed[::every, column] & (np.abs(values) <= LARGEST)
+        rows = np.flatnonzero(known)
+        values, rows = values if len(rows) == len(values) else values[rows], rows * every
         times = rows.astype(np.float64) if episode.times is None else episode.times[rows]
-        series.append(Series(rows, values[rows], times))
+        series.append(Series(rows, values, times))
     return series
 
 
@@ -40,13 +46,15 @@ def largest_steps(recording: Recording) -> Float[ndarray, " D"]:
     """Return every channel's largest step between values that follow each other [its unit]."""
     result = np.zeros(len(recording.channels))
     for episode in recording.episodes:
-        known = episode.known
-        if known.all():
-            steps = np.abs(np.diff(episode.values, axis=0)).max(axis=0, initial=0)
-        else:
-            columns = zip(episode.values.T, known.T, strict=True)
-            steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
-        result = np.maximum(result, steps)
+        for start in range(0, len(episode.values) - 1, BLOCK):
+            rows = slice(start, start + BLOCK + 1)
+            values = episode.values[rows]
+            if not (episode.observed[rows] & (np.abs(values) <= LARGEST)).all():
+                columns = zip(episode.values.T, episode.known.T, strict=True)
+                steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
+                result = np.maximum(result, steps)
+                break
+            result = np.maximum(result, np.abs(np.diff(values, axis=0)).max(axis=0))
     return result
 
 

@@ -1,15 +1,14 @@
 """What is in a recording, in numbers, whatever is wrong with it: what a user looks at first."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float, Int
 from numpy import ndarray
 
-from motionese.recordings.binary import two_values
 from motionese.recordings.preparation import still_ends
 from motionese.recordings.rate import DROPPED, rate_of_times
 from motionese.recordings.recording import Episode, Recording
@@ -18,6 +17,8 @@ STILL_END = 0.01
 """Share of its range within which every channel stays in the still rows at an episode's ends."""
 STILL_STEP = 0.001
 """Share of its range by which a channel that is still changes at most from row to row."""
+BLOCK = 512
+"""Rows that are looked at together."""
 
 
 class EpisodeNumbers(NamedTuple):
@@ -88,42 +89,76 @@ class Survey(NamedTuple):
     channels: tuple[ChannelNumbers, ...]
 
 
+class _Cells(NamedTuple):
+    """Extremes of the finite values of every channel in one episode, and how many are which."""
+
+    low: Float[ndarray, " D"]
+    high: Float[ndarray, " D"]
+    unobserved: Int[ndarray, " D"]
+    nan: Int[ndarray, " D"]
+    infinite: Int[ndarray, " D"]
+
+    @property
+    def whole(self) -> bool:
+        """Whether all was observed and is finite."""
+        return not (self.unobserved.any() or self.nan.any() or self.infinite.any())
+
+
+class _Steps(NamedTuple):
+    """Steps from row to row of every channel in one episode: sum, number, and how many are still.
+
+    Attributes:
+        all_still: Share of them in which no usual channel moves.
+    """
+
+    total: Float[ndarray, " D"]
+    number: Int[ndarray, " D"]
+    still: Int[ndarray, " D"]
+    all_still: float
+
+
 # What is absurd is shown, not refused: differences of huge values may overflow.
 @np.errstate(over="ignore", invalid="ignore")
 def survey(recording: Recording) -> Survey:
     """Return the numbers of a recording as it was read, before anything is refused or mended."""
     episodes = recording.episodes
-    values, observed, seen, steps = (
-        np.concatenate([of(e) for e in episodes])
-        for of in (attrgetter("values"), attrgetter("observed"), _seen, _steps)
-    )
-    low = np.where(seen, values, np.inf).min(axis=0, initial=np.inf)
-    high = np.where(seen, values, -np.inf).max(axis=0, initial=-np.inf)
+    cells = list(map(_cells, episodes))
+    low = np.min([c.low for c in cells], axis=0)
+    high = np.max([c.high for c in cells], axis=0)
     widths = np.where(low <= high, high, 0.0) - np.where(low <= high, low, 0.0)
     usual = [i for i, c in enumerate(recording.channels) if c in recording.usual]
     times = [e.times for e in episodes if e.times is not None]
     rising = [t for t in times if np.isfinite(t).all() and (np.diff(t) > 0).all()]
     rate = recording.rate_hz if recording.rate_hz is not None else rate_of_times(rising)
+    steps = [
+        _steps(e, STILL_STEP * widths, usual, whole=c.whole)
+        for e, c in zip(episodes, cells, strict=True)
+    ]
     return Survey(
         recording.source,
         rate,
         _jitter(rising, rate),
-        tuple(_episode(e, widths, usual, rate) for e in episodes),
         tuple(
-            _channel(recording, i, values[:, i], observed[:, i], steps[:, i], (low[i], high[i]))
-            for i in range(len(recording.channels))
+            _episode(e, c, s, STILL_END * widths, usual, rate)
+            for e, c, s in zip(episodes, cells, steps, strict=True)
         ),
+        tuple(_channel(recording, i, cells, steps) for i in range(len(recording.channels))),
     )
 
 
 def _episode(
-    episode: Episode, widths: Float[ndarray, " D"], usual: list[int], rate: float | None
+    episode: Episode,
+    cells: _Cells,
+    steps: _Steps,
+    limits: Float[ndarray, " D"],
+    usual: list[int],
+    rate: float | None,
 ) -> EpisodeNumbers:
     rows, times = len(episode.values), episode.times
     shown = episode.part(columns=usual)
-    shown = replace(shown, observed=_seen(shown))
-    still = np.all(~(_steps(shown) > STILL_STEP * widths[usual]), axis=1)
-    start, end = still_ends(shown, STILL_END * widths[usual]) if usual else (0, 0)
+    if not cells.whole:
+        shown = replace(shown, observed=shown.observed & np.isfinite(shown.values))
+    start, end = still_ends(shown, limits[usual]) if usual else (0, 0)
     duration = None if rate is None else max(rows - 1, 0) / rate
     if times is not None and rows:
         duration = float(times[-1] - times[0])
@@ -133,47 +168,92 @@ def _episode(
         duration,
         start / max(rows, 1),
         end / max(rows, 1),
-        _share(still),
-        _share(~episode.observed),
+        steps.all_still,
+        int(cells.unobserved.sum()) / max(episode.values.size, 1),
         0 if times is None or rate is None else int((np.diff(times) * rate > DROPPED).sum()),
-        int((episode.observed & np.isnan(episode.values)).sum()),
-        int((episode.observed & np.isinf(episode.values)).sum()),
+        int(cells.nan.sum()),
+        int(cells.infinite.sum()),
     )
 
 
 def _channel(
-    recording: Recording,
-    column: int,
-    values: Float[ndarray, " N"],
-    observed: Bool[ndarray, " N"],
-    steps: Float[ndarray, " _"],
-    extremes: tuple[float, float],
+    recording: Recording, column: int, cells: Sequence[_Cells], steps: Sequence[_Steps]
 ) -> ChannelNumbers:
-    name, (low, high) = recording.channels[column], map(float, extremes)
-    steps = steps[~np.isnan(steps)]
+    name = recording.channels[column]
+    low, high = (
+        float(min(c.low[column] for c in cells)),
+        float(max(c.high[column] for c in cells)),
+    )
+    rows = sum(len(e.values) for e in recording.episodes)
+    count = int(sum(s.number[column] for s in steps))
     return ChannelNumbers(
         name,
         recording.units[column],
         name in recording.usual,
         low if low <= high else None,
         high if low <= high else None,
-        float(steps.mean()) if len(steps) else None,
-        _share(steps <= STILL_STEP * (high - low)),
-        _share(~observed),
-        int((observed & np.isnan(values)).sum()),
-        int((observed & np.isinf(values)).sum()),
+        float(sum(s.total[column] for s in steps)) / count if count else None,
+        int(sum(s.still[column] for s in steps)) / max(count, 1),
+        int(sum(c.unobserved[column] for c in cells)) / max(rows, 1),
+        int(sum(c.nan[column] for c in cells)),
+        int(sum(c.infinite[column] for c in cells)),
         recording.ranges.get(name),
-        two_values([values[observed & np.isfinite(values)]]) is not None,
+        low < high and _two_valued(recording, column, (low, high)),
     )
 
 
-def _seen(episode: Episode) -> Bool[ndarray, "T D"]:
-    return np.asarray(episode.observed & np.isfinite(episode.values))
+def _two_valued(recording: Recording, column: int, extremes: tuple[float, float]) -> bool:
+    """Tell whether a channel takes its extremes alone; most show by a few rows that they do not."""
+    for rows in (slice(BLOCK), slice(None)):
+        for episode in recording.episodes:
+            values, observed = episode.values[rows, column], episode.observed[rows, column]
+            if (observed & np.isfinite(values) & ~np.isin(values, extremes)).any():
+                return False
+    return True
 
 
-def _steps(episode: Episode) -> Float[ndarray, "_ D"]:
-    """Return how far every value is from that of the row before; NaN where one is missing."""
-    return np.asarray(np.abs(np.diff(np.where(_seen(episode), episode.values, np.nan), axis=0)))
+def _cells(episode: Episode) -> _Cells:
+    width = episode.values.shape[1]
+    low, high = np.full(width, np.inf), np.full(width, -np.inf)
+    unobserved, nan, infinite = (np.zeros(width, dtype=int) for _ in range(3))
+    for rows in _blocks(len(episode.values), 0):
+        values, observed = episode.values[rows], episode.observed[rows]
+        known = observed & np.isfinite(values)
+        if known.all():
+            below = above = values
+        else:
+            below, above = np.where(known, values, np.inf), np.where(known, values, -np.inf)
+            unobserved += (~observed).sum(axis=0)
+            nan += (observed & np.isnan(values)).sum(axis=0)
+            infinite += (observed & np.isinf(values)).sum(axis=0)
+        low, high = np.minimum(low, below.min(axis=0)), np.maximum(high, above.max(axis=0))
+    return _Cells(low, high, unobserved, nan, infinite)
+
+
+def _steps(
+    episode: Episode, limits: Float[ndarray, " D"], usual: list[int], *, whole: bool
+) -> _Steps:
+    """Return the steps of an episode; still are those up to `limits`."""
+    width = episode.values.shape[1]
+    total, count, still = np.zeros(width), np.zeros(width, dtype=int), np.zeros(width, dtype=int)
+    columns, together = np.isin(np.arange(width), usual), 0
+    for rows in _blocks(len(episode.values), 1):
+        values, observed = episode.values[rows], episode.observed[rows]
+        steps = np.abs(np.diff(values, axis=0))
+        known = None if whole else observed & np.isfinite(values)
+        both = np.True_ if known is None else known[1:] & known[:-1]
+        here = steps <= limits
+        total += (steps if whole else np.where(both, steps, 0.0)).sum(axis=0)
+        count += len(steps) if whole else both.sum(axis=0)
+        still += (here & both).sum(axis=0)
+        together += int((here | ~both | ~columns).all(axis=1).sum())
+    return _Steps(total, count, still, together / max(len(episode.values) - 1, 1))
+
+
+def _blocks(rows: int, overlap: int) -> Iterator[slice]:
+    """Yield the rows of an episode, so many at a time that they stay near the processor."""
+    for start in range(0, rows - overlap, BLOCK):
+        yield slice(start, start + BLOCK + overlap)
 
 
 def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | None:
@@ -182,7 +262,3 @@ def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | No
         return None
     near = intervals[intervals * rate < DROPPED]
     return float(np.abs(near * rate - 1).max()) if len(near) else None
-
-
-def _share(which: Bool[ndarray, "*shape"]) -> float:
-    return float(which.mean()) if which.size else 0.0

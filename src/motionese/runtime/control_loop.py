@@ -7,6 +7,7 @@ from threading import Event
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import ControlError
 from motionese.runtime.belief import NONE
 from motionese.runtime.limits import Limiter, Limits
@@ -21,6 +22,7 @@ SAME_RATE = 1e-3
 """Rates that differ by no more than this share are the same."""
 
 
+@refusing(ControlError)
 @dataclass(frozen=True, eq=False)
 class ControlLoop:
     """Plays motions on a robot.
@@ -83,7 +85,8 @@ class ControlLoop:
         """
         self._asked_to_end.set()
 
-    def run(self, *parts: Part | str) -> LoopReport:
+    @refusing(ControlError)
+    def run(self, *parts: Part | str | int) -> LoopReport:
         """Play motions one after another, from where the robot is.
 
         The first reading places the robot; until it has come nothing is sent. A channel that it
@@ -98,6 +101,7 @@ class ControlLoop:
         scheduled = schedule(self.model, parts)
         return self._ran(lambda run: run.play(scheduled))
 
+    @refusing(ControlError)
     def follow(self, recognition: OnlineRecognition, steps: int, *, lag: int = 2) -> LoopReport:
         """Follow a motion while it is shown, so many rows behind it.
 
@@ -151,6 +155,7 @@ class _Run:
         """Play the parts and tell how it went."""
         return self._report(self._play(parts))
 
+    @refusing(ControlError)
     def follow(self, recognition: OnlineRecognition, steps: int, lag: int) -> LoopReport:
         """Follow what is shown and tell how it went."""
         return self._report(self._follow(recognition, steps, lag))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import ControlError
 from motionese.runtime.model import RuntimeModel
 
@@ -13,6 +14,7 @@ FAR = 1.0
 """How far beyond its limits, in their widths, a robot may be when a loop begins."""
 
 
+@refusing(ControlError)
 @dataclass(frozen=True)
 class Limits:
     """Limits of the commands, by channel name.

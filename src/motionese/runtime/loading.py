@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import CHECKPOINT_BEFORE, NO_MOTION, StorageError
 from motionese.runtime.model import RuntimeModel
 
@@ -23,6 +24,7 @@ FLOATS = {"F64": "<f8", "F32": "<f4", "F16": "<f2"}
 BROKEN = (KeyError, TypeError, ValueError, AttributeError, IndexError, RecursionError)
 
 
+@refusing(StorageError)
 def load(path: str | Path) -> RuntimeModel:
     """Read a model that `motionese.save` wrote.
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import place_of, refusing
 from motionese.errors import ControlError, unknown
 from motionese.time_constants import LONGEST, SHORTEST, scaled_tau
 from motionese.unit_interval import from_unit, logit, sigmoid, to_unit
@@ -71,24 +72,33 @@ class RuntimeModel:
         """Number of units N."""
         return len(self.bias)
 
-    def initial(self, name: str) -> ndarray:
-        """Return a learned motion's u_0 [N]; `ControlError` for an unknown name."""
-        if name not in self.initial_states:
-            raise ControlError(unknown("initial state", name, self.initial_states))
-        return self.initial_states[name].copy()
+    def named(self, motion: str | int) -> str:
+        """Return the name of a learned motion by its name or place; `ControlError` if none is."""
+        names = list(self.initial_states)
+        return names[place_of("initial state", motion, names, ControlError)]
 
-    def begin(self, start: str | ndarray, here: Reading = None) -> State:
+    def initial(self, motion: str | int) -> ndarray:
+        """Return a learned motion's u_0 [N]; `ControlError` for one that is not there."""
+        return self.initial_states[self.named(motion)].copy()
+
+    @refusing(ControlError)
+    def begin(self, start: str | int | ndarray, here: Reading = None) -> State:
         """Return a state from which the model moves on.
 
         Args:
-            start: The name of a learned motion, or initial states [N], such as recognised ones.
+            start: The name or place of a learned motion, or initial states [N], such as recognised
+                ones.
             here: Where the robot is, in the channels' units: values by channel name, or one per
                 channel. A channel that is left out (or NaN) begins where the learned motion did.
 
         Raises:
             ControlError: A name or channel that does not exist, or values that are not finite.
         """
-        u = self.initial(start) if isinstance(start, str) else self._checked(start)
+        u = (
+            self.initial(start)
+            if isinstance(start, str | int | np.integer)
+            else self._checked(start)
+        )
         return self.state_at(u, self.to_unit(row_of(here, self.channels)))
 
     def state_at(self, u: ndarray, here: ndarray) -> State:
@@ -105,7 +115,7 @@ class RuntimeModel:
         y[known] = here[known]
         return State(u, y)
 
-    def _checked(self, start: ndarray) -> ndarray:
+    def _checked(self, start: Any) -> ndarray:
         u = np.array(start, dtype=np.float32)
         if u.shape != (self.size,):
             raise ControlError(
@@ -115,6 +125,7 @@ class RuntimeModel:
             raise ControlError("initial states must be finite; recognition may have diverged")
         return u
 
+    @refusing(ControlError)
     def with_duration(self, scale: float) -> "RuntimeModel":
         """Return the model with its motions lasting `scale` times as long.
 
@@ -125,6 +136,7 @@ class RuntimeModel:
         lengths = {name: 1 + round((rows - 1) * scale) for name, rows in self.lengths.items()}
         return replace(self, tau=tau, lengths=lengths)
 
+    @refusing(ControlError)
     def with_rate(self, rate_hz: float) -> "RuntimeModel":
         """Return the model for another rate [Hz], half to twice its own; motions last as long.
 

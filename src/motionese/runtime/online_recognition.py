@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import place_of, refusing, several
 from motionese.errors import ControlError
 from motionese.runtime.belief import Belief
 from motionese.runtime.error_regression import FIRST, ErrorRegression, Linearised
@@ -94,11 +95,12 @@ class OnlineRecognition:
         late: Readings that were left out, since their row was no longer looked at.
     """
 
+    @refusing(ControlError)
     def __init__(
         self,
         model: RuntimeModel,
         *,
-        observed: Sequence[str] | None = None,
+        observed: Sequence[str | int] | str | int | None = None,
         window: int = 20,
         steps: int = 2,
         ahead: int = 5,
@@ -109,7 +111,7 @@ class OnlineRecognition:
 
         Args:
             model: The model.
-            observed: Names of the channels that are looked at; all if left out.
+            observed: Names or numbers of the channels that are looked at; all if left out.
             window: Rows that are looked back on.
             steps: Damped steps a reading.
             ahead: Rows that are predicted.
@@ -128,9 +130,10 @@ class OnlineRecognition:
                 raise ControlError(f"{name} must be finite and > 0, got {number}")
         if not model.lengths:
             raise ControlError("the model's file does not tell how long its motions are")
-        names = dict.fromkeys(model.channels if observed is None else observed, True)
+        looked_at = range(len(model.channels)) if observed is None else several(observed)
+        seen = [place_of("channel", one, model.channels, ControlError) for one in looked_at]
         self.model, self.postponed, self.late = model, 0, 0
-        self._seen = np.array(model.per_channel("observed", names, False), dtype=bool)
+        self._seen = np.isin(np.arange(len(model.channels)), seen)
         self._steps, self.ahead, self._accuracy = steps, ahead, accuracy
         self._budget_s = np.inf if budget_ms is None else budget_ms / 1000
         self._step_s, self._told = 0.0, False
@@ -143,6 +146,7 @@ class OnlineRecognition:
         self._window = deque[ndarray](maxlen=window)
         self._row, self._u = -1, np.zeros(model.size, np.float32)
 
+    @refusing(ControlError)
     def observe(self, reading: Reading, row: int | None = None) -> OnlineResult:
         """Take in a reading and return what is known now.
 

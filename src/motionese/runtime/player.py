@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import ControlError
 from motionese.minimum_jerk import minimum_jerk
 from motionese.runtime.model import Reading, RuntimeModel, State, row_of
@@ -18,6 +19,7 @@ Blend = int | Callable[[ndarray], int]
 class Stepper:
     """Steps states of one model; one at a time, since it holds the arrays it computes in."""
 
+    @refusing(ControlError)
     def __init__(self, model: RuntimeModel) -> None:
         rate = 1 / model.tau.astype(np.float64)
         self._keep = (1 - rate).astype(np.float32)
@@ -62,6 +64,7 @@ class Stepper:
 class Player:
     """Plays a motion step by step, and passes from one motion to another without a jump."""
 
+    @refusing(ControlError)
     def __init__(self, model: RuntimeModel, state: State, share: Share = 0.0) -> None:
         """Take a state to play on from.
 
@@ -95,7 +98,8 @@ class Player:
         self._blend = steps(self.row) if callable(steps) else steps
         self._former, self._blended = (self._row.copy() if self._blend > 1 else None), 0
 
-    def blend_to(self, start: str | ndarray, steps: Blend) -> None:
+    @refusing(ControlError)
+    def blend_to(self, start: str | int | ndarray, steps: Blend) -> None:
         """Pass to another motion, whose first row is the next one of the present motion.
 
         Over so many rows both are played and the row goes from one to the other by the minimum

@@ -1,6 +1,6 @@
 """What a control loop plays: motions one after another, and how long it takes between them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from numbers import Integral
 
@@ -18,7 +18,7 @@ class Part:
     """One motion of several.
 
     Attributes:
-        start: The name of a learned motion, or initial states [N].
+        start: The name or place of a learned motion, or initial states [N].
         steps: How many rows of it are sent; all of the learned motion where left out. Of the first
             part that is one less: its first row is where the robot is already.
         blend: Over how many of these rows the part before, or standing still before the first one,
@@ -27,7 +27,7 @@ class Part:
             the robot has come to, and may rush to its own way.
     """
 
-    start: str | ndarray
+    start: str | int | ndarray
     steps: int | None = None
     blend: int | None = None
 
@@ -36,7 +36,7 @@ class Part:
 class ScheduledPart:
     """A part as it will be played: so many steps, and how the part before passes into it."""
 
-    start: str | ndarray
+    start: str | int | ndarray
     steps: int
     blend: Blend
 
@@ -56,11 +56,11 @@ class Course:
     rows: int
 
 
-def schedule(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[ScheduledPart]:
+def schedule(model: RuntimeModel, parts: tuple[Part | str | int, ...]) -> list[ScheduledPart]:
     """Return the parts as they will be played; `ControlError` where one cannot be."""
     if not parts:
         raise ControlError("nothing to play: name a learned motion, or give its initial states")
-    given = [Part(part) if isinstance(part, str) else part for part in parts]
+    given = [_named(model, part) for part in parts]
     steps = [_rows_sent(model, part, not i) for i, part in enumerate(given)]
     blends: list[Blend] = [part.blend or 0 for part in given]
     if any(part.blend is None for part in given):
@@ -73,7 +73,15 @@ def schedule(model: RuntimeModel, parts: tuple[Part | str, ...]) -> list[Schedul
     return [ScheduledPart(p.start, n, b) for p, n, b in zip(given, steps, blends, strict=True)]
 
 
-def course(model: RuntimeModel, start: str | ndarray, rows: int) -> Course:
+def _named(model: RuntimeModel, given: Part | str | int) -> Part:
+    """Return a part whose learned motion, if it is one, is told by its name."""
+    part = given if isinstance(given, Part) else Part(given)
+    if isinstance(part.start, str | int | np.integer):
+        return replace(part, start=model.named(part.start))
+    return part
+
+
+def course(model: RuntimeModel, start: str | int | ndarray, rows: int) -> Course:
     """Play a motion of so many rows by itself; about 15 µs a row."""
     player, nothing = Player(model, model.begin(start)), np.full(len(model.channels), np.nan)
     way = np.array([player.row, *(player.step_unit(nothing) for _ in range(rows - 1))])

@@ -1,6 +1,7 @@
 """Tasks: places, ways, primitives, the sequences they allow, and what counts as success."""
 
 from motionese.errors import TaskError, unknown
+from motionese.task.due_effects import due_effects
 from motionese.task.memory_demand import MemoryDemand, memory_demand
 from motionese.task.pushing_buttons import PUSHING_BUTTONS
 from motionese.task.sequence import Place, Primitive, PrimitiveSequence, common_beginning
@@ -34,6 +35,7 @@ __all__ = [
     "ViaPoints",
     "Way",
     "common_beginning",
+    "due_effects",
     "memory_demand",
     "straight",
     "task_named",

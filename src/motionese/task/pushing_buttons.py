@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from motionese.task.due_effects import due_effects
 from motionese.task.sequence import Place, Primitive, PrimitiveSequence
 from motionese.task.task import Attempt, Outcome, Task
 
@@ -21,17 +22,9 @@ RIGHT, LEFT = -0.29561591794016756, -0.06438408205983244
 
 
 def presses(sequence: PrimitiveSequence, attempt: Attempt) -> dict[str, Any]:
-    """Return how many presses were due and made, and how deep they were [mm].
-
-    A stroke's rows count from its middle on, where an earlier press is over, and the beginning of
-    the following stroke, since the arm lags behind what it is commanded.
-    """
-    ends = (*attempt.begins[1:], len(attempt.path))
-    depths = []
-    for primitive, begin, end in zip(sequence.primitives, attempt.begins, ends, strict=True):
-        if primitive.effect:
-            window = slice(begin + (end - begin) // 2, end + (end - begin) // 3)
-            depths.append(float(attempt.effects[primitive.effect][window].max()))
+    """Return how many presses were due and made, and how deep they were [mm]."""
+    due = due_effects(sequence, attempt.begins, len(attempt.path))
+    depths = [float(attempt.effects[primitive.effect][rows].max()) for primitive, rows in due]
     return {
         "buttons_due": len(depths),
         "buttons_pressed": sum(depth > PRESSED_MM for depth in depths),
@@ -71,5 +64,6 @@ PUSHING_BUTTONS = Task(
     novel={"triples": ("UR ↓↑↓", "UR ↓↑←", "LR ↑↓↑", "LR ↑←↓", "UR ←↓↑", "UL ↓↑↓", "LL ↑↓↑")},
     fixtures=files(__package__).joinpath("pushing_buttons.xml").read_text(encoding="utf-8"),
     effects=("right_button", "left_button"),
+    needed_mm=PRESSED_MM,
 )
 """Upper and lower, right and left corners, the lower ones being buttons."""

@@ -68,6 +68,7 @@ class Task:
         novel: Sequences that are imitated after the last loop, by the name of their table.
         fixtures: MuJoCo XML of the task's things (`<mujoco>` with what is attached to the world).
         effects: Names of what the things tell, each a slide joint of the fixtures.
+        needed_mm: How deep a thing must be pushed down to count [mm].
     """
 
     name: str
@@ -81,6 +82,7 @@ class Task:
     novel: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     fixtures: str = ""
     effects: tuple[str, ...] = ()
+    needed_mm: float = 0.0
 
     def __post_init__(self) -> None:
         for primitive in self.primitives:

@@ -17,7 +17,7 @@ class Entry:
 
     Attributes:
         number: Counted from 1; never given twice.
-        motion: What it is called: as drawn if that is a sequence of the task, else as understood.
+        motion: What it is called: the sequence of the task that was drawn, or any other name.
         source: Who showed it.
         drawn: The hand's path [m, world] as it was drawn in time. [R, 3]
         demonstration: The same at the robot's tempo.

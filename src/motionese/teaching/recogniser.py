@@ -25,6 +25,8 @@ RANDOM = 2
 """Random starts of a recognition, beside 0 and learned motions."""
 ITERATIONS = 400
 """Of a recognition."""
+FORETELLING = 8
+"""The same of one from which the rest is foretold."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +36,13 @@ class Interpretation:
     Attributes:
         state: The initial state found. [N]
         path: The hand's path as recognised [m, world]. [T, 3]
+        commands: The joint angles that the network would command meanwhile [rad]. [T, J]
         next: How the network would go on, for one stroke. [S, 3]
     """
 
     state: Float[ndarray, " N"]
     path: Float[ndarray, "T 3"]
+    commands: Float[ndarray, "T J"]
     next: Float[ndarray, "S 3"]
 
 
@@ -67,25 +71,44 @@ class Recogniser:
 
     def at_the_end(self, watched: Watched) -> Interpretation:
         """Return what is understood of a whole demonstration."""
-        network, scene = self.learner.network, self.scene
-        values = scene.as_own(start_of(watched.path, scene.task).start, watched)
-        seen = scene.to_recognise([values])
-        starts = np.stack([np.zeros(network.size), *self._recalled(seen)])[None]
         effort = {"iterations": ITERATIONS, "starts": RANDOM}
-        settings = self.learner.for_levels(scene.settings.recognition).model_copy(update=effort)
-        key, size = jax.random.key(len(values)), (1, self._most_rows)
-        found = recognise_all(
-            network, seen, starts=starts, settings=settings, key=key, padded_to=size
-        )[0]
-        rows = self._most_rows + self._stroke
-        path = generate(network, found.initial_state, rows, first=values[0])
-        hand = hand_seen(scene.body, path)
-        shown = len(values)
+        state, values = self._understood(watched, len(watched.sensed), effort)
+        hand, shown = hand_seen(self.scene.body, values), len(watched.sensed)
         return Interpretation(
-            state=found.initial_state,
+            state=state,
             path=hand[:shown],
+            commands=values[:shown, self.scene.joints],
             next=hand[shown : shown + self._stroke],
         )
+
+    def foretold(self, watched: Watched, rows: int) -> Float[ndarray, "T 3"]:
+        """Return the path [m, world] that is expected of a demonstration after its first rows.
+
+        Few steps from learned motions find it: it stays near what was learned.
+        """
+        effort = {"iterations": FORETELLING, "starts": 0}
+        values = self._understood(watched, rows, effort)[1]
+        return hand_seen(self.scene.body, values)[: len(watched.sensed)]
+
+    def _understood(
+        self, watched: Watched, rows: int, effort: dict[str, int]
+    ) -> tuple[Float[ndarray, " N"], Float[ndarray, "R D"]]:
+        """Return the state found from some rows, and what the network generates from it."""
+        network, scene = self.learner.network, self.scene
+        values = scene.as_own(start_of(watched.path, scene.task).start, watched)[:rows]
+        seen = scene.to_recognise([values])
+        starts = np.stack([np.zeros(network.size), *self._recalled(seen)])[None]
+        settings = self.learner.for_levels(scene.settings.recognition).model_copy(update=effort)
+        found = recognise_all(
+            network,
+            seen,
+            starts=starts,
+            settings=settings,
+            key=jax.random.key(rows),
+            padded_to=(1, self._most_rows),
+        )[0]
+        state, most = found.initial_state, self._most_rows + self._stroke
+        return state, generate(network, state, most, first=values[0])
 
     @cached_property
     def _model(self) -> RuntimeModel:

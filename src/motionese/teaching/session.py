@@ -1,12 +1,13 @@
 """A teaching session: what a person does with the robot, and what becomes of both."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.caregiver import Demonstration, segmented, sequence_in
+from motionese.caregiver import SOMETHING_ELSE, Demonstration, hypotheses, segmented
 from motionese.imitation import (
     Learner,
     Performance,
@@ -18,11 +19,15 @@ from motionese.imitation import (
     path_error_cm,
     watch,
 )
+from motionese.teaching.claim import claim_on
 from motionese.teaching.notebook import Entry, Learning, Notebook, Source
 from motionese.teaching.practice import Report, practised
 from motionese.teaching.recogniser import Interpretation, Recogniser, start_of
-from motionese.teaching.verdict import Verdict, verdict_on
+from motionese.teaching.result import Result, result_of
+from motionese.teaching.verdict import Verdict, seen_in_words, sequence_called
 
+OWN = "your motion"
+"""A motion that is no sequence of the task is called this, and a number."""
 PRACTICE = 5
 """Imitation loops of one learning: imitate, and train on what the own body did, so many times."""
 
@@ -39,11 +44,16 @@ class Observation:
 
 @dataclass(frozen=True)
 class Trial:
-    """A performance of what was shown, the initial state it began from, and its error [cm]."""
+    """A performance of what was shown, the initial state it began from, and what it came to."""
 
     performance: Performance
     state: Float[ndarray, " N"]
-    error_cm: float
+    result: Result
+
+    @property
+    def error_cm(self) -> float:
+        """Its error [cm]."""
+        return self.result.error_cm
 
 
 @dataclass(frozen=True)
@@ -59,13 +69,15 @@ class Change:
 class Standing:
     """Where a session stands; it can be returned to.
 
-    No two learners of a session have the same number; `observed` is what was shown last.
+    No two learners of a session have the same number; `observed` is what was shown last, `tried`
+    what this learner's last try of a motion came to.
     """
 
     learner: Learner
     number: int
     notebook: Notebook
     observed: Observation | None = None
+    tried: Mapping[str, Result] = field(default_factory=dict)
 
 
 class Teaching:
@@ -136,29 +148,42 @@ class Teaching:
             path: The hand's path [m, world] at the robot's tempo.
             drawn: The hand's path as it was drawn in time, where that differs.
         """
-        task, notebook = self.scene.task, self.notebook
-        demonstration = segmented(path, sequence_in(path, task), task)
+        notebook, seen = self.notebook, self.seen(path)
+        motion = next(iter(seen))
+        if motion == SOMETHING_ELSE:
+            motion = self._own_name()
+        sequence = sequence_called(motion, self.scene.task)
+        demonstration = segmented(path, sequence, self.scene.task)
         watched = self.watch(demonstration)
         interpretation = self.recogniser.at_the_end(watched)
-        known = {e.motion for e in self.learner.experiences}
-        verdict = verdict_on(watched.path, interpretation.path, task, known)
-        sequence = verdict.shown or verdict.recognised
-        name = sequence.name if sequence else f"{start_of(path, task).start} ?"
-        entry = Entry(notebook.next, name, source, path if drawn is None else drawn, demonstration)
+        verdict = self._verdict(seen, motion, watched, interpretation)
+        drawn = path if drawn is None else drawn
+        entry = Entry(notebook.next, motion, source, drawn, demonstration)
         observed = Observation(entry, watched, interpretation, verdict)
         notebook = notebook.with_entry(entry)
         self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return observed
 
+    def seen(self, path: Float[ndarray, "T 3"], *, whole: bool = True) -> dict[str, float]:
+        """Return how likely a hand's path [m, world] shows each motion, the likeliest first.
+
+        Known are the task's sequences and the person's own motions, as they were last shown.
+        """
+        task = self.scene.task
+        latest = {entry.motion: entry for entry in self.notebook.latest()}
+        own = {n: e.demonstration.path for n, e in latest.items() if not sequence_called(n, task)}
+        return hypotheses(path, task, own, whole=whole)
+
     def imitate(self) -> Trial:
         """Perform what was shown last, and note the error."""
         observed = self._observed()
-        trial = self._trial(observed.watched, observed.interpretation)
+        trial = self._trial(observed.watched, observed.interpretation, observed.entry.motion)
         entry = self.notebook.entry(observed.entry.number) or observed.entry
         entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
         observed = replace(observed, entry=entry)
         notebook = self.notebook.with_entry(entry)
-        self.standing = replace(self.standing, notebook=notebook, observed=observed)
+        tried = {**self.standing.tried, entry.motion: trial.result}
+        self.standing = replace(self.standing, notebook=notebook, observed=observed, tried=tried)
         return trial
 
     def learn(self, report: Report) -> Change:
@@ -216,7 +241,8 @@ class Teaching:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
             earlier = since[0].before
-            self.return_to(replace(self.standing, learner=kept(earlier), number=earlier))
+            learner = kept(earlier)
+            self.return_to(replace(self.standing, learner=learner, number=earlier, tried={}))
             return f"{entry.motion} is forgotten: the network is again what it was before."
         loops = {each.loop - i for each in since if each.entry == number for i in range(PRACTICE)}
         left = tuple(e for e in self.learner.experiences if e.loop not in loops)
@@ -252,14 +278,44 @@ class Teaching:
         """Let everything be compiled that a drawing asks for, by what nobody sees."""
         sequence, rng = self.scene.task.sequences(1)[0], generator_for(0, "warming")
         watched = self.watch(self.scene.caregiver().demonstrate(sequence, rng))
-        state = self.recogniser.at_the_end(watched).state
+        interpretation = self.recogniser.at_the_end(watched)
+        claim_on(watched, sequence, self.recogniser, interpretation)
+        self.seen(watched.path)
         if (online := self.recogniser.online()) is not None:
             online.observe(watched)
+        state = interpretation.state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
+
+    def _verdict(
+        self,
+        seen: Mapping[str, float],
+        motion: str,
+        watched: Watched,
+        interpretation: Interpretation,
+    ) -> Verdict:
+        task, tried = self.scene.task, self.standing.tried.get(motion)
+        sequence = sequence_called(motion, task)
+        claim = claim_on(watched, sequence, self.recogniser, interpretation, tried)
+        learned = {e.motion for e in self.learner.experiences}
+        return Verdict(
+            seen=seen,
+            motion=motion,
+            sequence=sequence,
+            error_cm=path_error_cm(interpretation.path, watched.path),
+            claim=claim,
+            sentence=f"{seen_in_words(seen, motion, task, learned)} {claim.sentence}",
+        )
+
+    def _own_name(self) -> str:
+        """Return a name that no motion has had."""
+        named = [entry.motion for entry in self.notebook.entries]
+        named += [experience.motion for experience in self.learner.experiences]
+        numbers = [int(n[1]) for name in named if (n := re.fullmatch(rf"{OWN} (\d+)", name))]
+        return f"{OWN} {max(numbers, default=0) + 1}"
 
     def _become(self, learner: Learner) -> None:
         self.numbers += 1
-        self.return_to(replace(self.standing, learner=learner, number=self.numbers))
+        self.return_to(replace(self.standing, learner=learner, number=self.numbers, tried={}))
 
     def _note(self, learning: Learning) -> None:
         notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
@@ -279,12 +335,13 @@ class Teaching:
     def _last_loop(self) -> int:
         return max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
 
-    def _trial(self, watched: Watched, interpretation: Interpretation) -> Trial:
-        sequence = start_of(watched.path, self.scene.task)
-        state, rows = interpretation.state, len(watched.path)
-        done = self.scene.perform(self.learner.network, state, sequence, rows, "teaching")
-        return Trial(done, state, path_error_cm(done.path, watched.path))
+    def _trial(self, watched: Watched, interpretation: Interpretation, motion: str) -> Trial:
+        task, state = self.scene.task, interpretation.state
+        start, rows = start_of(watched.path, task), len(watched.path)
+        done = self.scene.perform(self.learner.network, state, start, rows, "teaching")
+        return Trial(done, state, result_of(done, watched, sequence_called(motion, task), task))
 
     def _error_of(self, entry: Entry) -> float:
         watched = self.watch(entry.demonstration)
-        return self._trial(watched, self.recogniser.at_the_end(watched)).error_cm
+        understood = self.recogniser.at_the_end(watched)
+        return self._trial(watched, understood, entry.motion).error_cm

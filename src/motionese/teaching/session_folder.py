@@ -14,7 +14,6 @@ from zipfile import BadZipFile
 import numpy as np
 
 from motionese.caregiver import DEMONSTRATIONS, Demonstration, moving, recording_of, sequence_in
-from motionese.caregiver.recorded_caregiver import UNREAD
 from motionese.errors import StorageError
 from motionese.files import write_whole
 from motionese.imitation import (
@@ -216,4 +215,4 @@ def _shows(entry: Entry, scene: Scene) -> str:
     """Return what a drawing shows, as `caregiver.read_recorded` will read it."""
     hand = moving(entry.drawn, scene.settings.caregiver.rest_steps)
     sequence = sequence_in(hand, scene.task)
-    return sequence.name if sequence else f"{entry.motion.rstrip(f' {UNREAD}')} {UNREAD}"
+    return sequence.name if sequence else entry.motion

@@ -71,7 +71,14 @@ def hand_seen(
     body: SimulatedRobot, values: Float[ndarray, "*shape D"]
 ) -> Float[ndarray, "*shape 3"]:
     """Return where the hand is [m, world] that was seen with these channels' values."""
-    azimuth, elevation = np.moveaxis(body.bearing(values), -1, 0)
+    return position_seen(body, body.bearing(values))
+
+
+def position_seen(
+    body: SimulatedRobot, bearing: Float[ndarray, "*shape 2"]
+) -> Float[ndarray, "*shape 3"]:
+    """Return where the hand is [m, world] that is seen at an azimuth and elevation [rad]."""
+    azimuth, elevation = np.moveaxis(bearing, -1, 0)
     level = np.cos(elevation)
     rays = [level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)]
     return body.met(np.stack(rays, axis=-1))

@@ -8,6 +8,7 @@ import pytest
 from typed import arm_motions, refused, typed
 
 from motionese import Motions, generate, load
+from motionese.errors import SettingError
 
 
 def generated(*arguments, out="new.csv"):
@@ -183,3 +184,18 @@ def test_numbers_out_of_range_end_with_status_2(arm):
         assert status == 2
         assert wrong[0] in errors
     assert not (arm / "new.csv").exists()
+
+
+def test_a_held_out_motion_is_called_so_and_can_be_generated_once_recognised(arm):
+    train = ("train", "data.npz", "--levels", "6:3", "--epochs", "1", "--held-out", "wave")
+    assert typed(*train, "--out", "part.safetensors")[0] == 0
+
+    told = refused("generate", "part.safetensors", "--like", "wave", "--out", "wave.csv")
+    assert told.startswith("--like wave: motion 'wave' was held out of the training")
+    assert "recognise" in told and "--initial FILE" in told
+    with pytest.raises(SettingError, match="motion 'wave' was held out"):
+        load("part.safetensors").index("wave")
+
+    assert typed("recognise", "part.safetensors", "data.npz", "--initial", "i.json")[0] == 0
+    way = ("--initial", "i.json", "--like", "wave", "--out", "wave.csv")
+    assert typed("generate", "part.safetensors", *way)[0] == 0

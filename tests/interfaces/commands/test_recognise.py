@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from typed import CHANNELS, NAMES, arm_motions, refused, typed, write_csv
 
-from motionese import Motions, generate, load
+from motionese import Motions, generate, load, read_for
 
 SEEN = ("--observed", "x", "y")
 
@@ -85,14 +85,43 @@ def hand_first(name):
     write_csv(name, turned, channels=[*CHANNELS[2:], *CHANNELS[:2]])
 
 
-def test_columns_in_another_order_are_refused_and_put_right(arm):
+def test_columns_in_another_order_are_put_into_the_models(arm):
     hand_first("turned.csv")
-    assert refused("recognise", "arm.safetensors", "turned.csv") == (
-        "turned.csv: its channels stand in another order than the model's: x, y, shoulder, "
-        "elbow; name them in the model's: --channels shoulder,elbow,x,y"
-    )
+    straight, turned = recognised("demos.csv"), recognised("turned.csv")
 
-    assert "│ lift" in recognised("turned.csv", "--channels", "shoulder,elbow,x,y")
+    assert turned.partition("Root mean")[2] == straight.partition("Root mean")[2]
+    found = read_for(load("arm.safetensors"), "turned.csv").examined
+    assert [(each.kind, each.what) for each in found] == [
+        (
+            "converted",
+            "its channels are x, y, shoulder, elbow; "
+            "taken in the model's order shoulder, elbow, x, y",
+        )
+    ]
+    named = ("--channels", "shoulder,elbow,x,y")
+    assert recognised("turned.csv", *named) == turned
+    assert not read_for(load("arm.safetensors"), "demos.csv").examined
+
+
+def test_of_a_recording_of_some_channels_these_are_looked_at(arm):
+    write_csv("hand.csv", {n: v[:, 2:] for n, v in arm_motions().items()}, channels=CHANNELS[2:])
+
+    told = recognised("hand.csv")
+    assert "hand.csv: looked at x, y; not in the recording: shoulder, elbow\n" in told
+    _, _, named = told.partition("\n")
+    assert recognised("hand.csv", *SEEN).endswith(named)
+    assert "channel 'shoulder' is missing" in refused(
+        "recognise", "arm.safetensors", "hand.csv", "--observed", "shoulder", "x"
+    )
+    (finding,) = read_for(load("arm.safetensors"), "hand.csv").examined
+    assert (finding.channel, finding.count) == ("shoulder", 2)
+
+
+def test_row_by_row_too_what_is_there_is_looked_at(arm):
+    write_csv("hand.csv", {n: v[:, 2:] for n, v in arm_motions().items()}, channels=CHANNELS[2:])
+
+    told = recognised("hand.csv", "--online", "--window", "8", "--out", "seen.csv")
+    assert "looked at x, y; not in the recording: shoulder, elbow" in told
 
 
 WRONG = {
@@ -103,9 +132,15 @@ WRONG = {
     "model as data": (["arm.safetensors", "arm.safetensors"], "not a recording that is read here"),
     "no data": (["arm.safetensors", "nothing.csv"], "nothing.csv: there is no such file"),
     "observed": (["arm.safetensors", "demos.csv", "--observed", "z*"], "unknown channel 'z*'"),
-    "missing": (["arm.safetensors", "hand.csv"], "the model's channel 'shoulder' is missing; the"),
+    "missing": (
+        ["arm.safetensors", "hand.csv", "--observed", "shoulder"],
+        "the model's channel 'shoulder' is missing; the model needs shoulder, here are x, y",
+    ),
     "foreign": (["arm.safetensors", "other.csv"], "here are none of them"),
-    "excluded": (["arm.safetensors", "demos.csv", "--exclude", "x"], "channel 'x' is missing"),
+    "excluded": (
+        ["arm.safetensors", "demos.csv", "--exclude", "x", "--observed", "x"],
+        "channel 'x' is missing",
+    ),
     "NaN": (["arm.safetensors", "nan.csv"], "nan.csv: episode 'wave', row 3, channel 'x': values"),
     "one row": (["arm.safetensors", "short.csv"], "episode 'lift' has 1 row; at least 2"),
     "out": (["arm.safetensors", "demos.csv", "--out", "new"], "--out new: its name must end in"),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typed import CHANNELS, NAMES, arm_motions, refused, typed, write_csv
 
-from motionese import Motions, Training, load
+from motionese import Motions, Training, load, save
 from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.train import read_held_out, read_training
 
@@ -150,7 +150,7 @@ def test_a_kill_before_the_model_is_saved_loses_nothing(arm, monkeypatch):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr("motionese.interfaces.commands.train.save", killed)
+        patched.setattr("motionese.interfaces.commands.train.write_fit", killed)
         typed(*command)
     assert not (arm / "new.safetensors").exists()
 
@@ -303,3 +303,126 @@ def test_channels_are_those_of_the_recording(trained):
     fit = load(trained / "arm.safetensors")
 
     assert [f"{c.name} [{c.unit}]" for c in fit.network.channels] == list(CHANNELS)
+
+
+GOING_ON = ("train", "data.npz", "--out", "new.safetensors", "--levels", "6:3", "--log", "jsonl")
+
+
+def trained_on(*arguments):
+    status, output, errors = typed(*GOING_ON, *arguments)
+    assert (status, errors) == (0, ""), errors
+    return load("new.safetensors"), output
+
+
+def test_a_training_that_has_ended_goes_on_to_more_epochs(arm):
+    first, _ = trained_on("--epochs", "200")
+    second, told = trained_on("--epochs", "400", "--resume")
+
+    assert "Goes on from its 200 epochs: 4 motions from their initial states there; the" in told
+    assert "all 200 epochs done, after 200 before" in told
+    assert len(second.losses) == 400 and len(second.validation_losses) == 4
+    np.testing.assert_array_equal(second.losses[:200], first.losses)
+    assert second.losses[-1] < first.losses[-1]
+    epochs = [json.loads(line)["epoch"] for line in (arm / "new.log.jsonl").open()]
+    assert epochs == [100, 200, 300, 400]
+
+    third, _ = trained_on("--epochs", "500", "--resume")
+    assert len(third.losses) == 500
+    refusal = refused(*GOING_ON, "--epochs", "500", "--resume")
+    assert "has had 500 epochs, 500 were asked for in all; to go on give more, such as" in refusal
+    assert "--epochs 1000" in refusal
+
+
+def test_going_on_ends_with_the_same_bits_stopped_or_not(arm, stopped_at):
+    noisy = ("--set", "noise=cf:0.01")
+    trained_on("--epochs", "100", *noisy)
+    begun = (arm / "new.safetensors").read_bytes()
+    trained_on("--epochs", "400", "--resume", *noisy)
+    whole = (arm / "new.safetensors").read_bytes()
+
+    (arm / "new.safetensors").write_bytes(begun)
+    stopped_at(300)
+    status, _, errors = typed(*GOING_ON, "--epochs", "400", "--resume", *noisy)
+    assert (status, errors) == (
+        130,
+        "\nmotionese: stopped; the same command with --resume goes on\n",
+    )
+    assert (arm / "new.safetensors").read_bytes() == begun
+
+    stopped_at(None)
+    trained_on("--epochs", "400", "--resume", *noisy)
+    assert (arm / "new.safetensors").read_bytes() == whole
+    assert not (arm / "new.checkpoint").exists()
+    assert [json.loads(line)["epoch"] for line in (arm / "new.log.jsonl").open()] == [100, 200, 400]
+
+
+def test_a_model_is_replaced_by_a_training_that_begins_anew_and_is_stopped(arm, stopped_at):
+    trained_on("--epochs", "100")
+    stopped_at(100)
+    assert typed(*GOING_ON, "--epochs", "200", "--seed", "1")[0] == 130
+    stopped_at(None)
+
+    fit, told = trained_on("--epochs", "200", "--seed", "1", "--resume")
+    assert len(fit.losses) == 200
+    assert "Goes on from" not in told
+
+
+def test_an_ended_training_goes_on_only_as_it_was_begun(arm):
+    trained_on("--epochs", "100")
+    longer = ("--epochs", "200", "--resume")
+    for changed, told in (
+        (("--set", "weight_rate=0.01"), "begun with other settings"),
+        (("--levels", "7:3"), "begun with other networks"),
+        (("--seed", "1"), "begun with other settings"),
+        (("--held-out", "0"), "begun with other motions"),
+        (("--channels", "x", "y"), "begun with other "),
+    ):
+        refusal = refused(*GOING_ON, *longer, *changed)
+        assert told in refusal and "--begin new.safetensors" in refusal
+
+    save("new.safetensors", load("new.safetensors"))
+    refusal = refused(*GOING_ON, *longer)
+    assert "does not tell how it was trained; begin from the model with --begin" in refusal
+
+
+def test_what_diverged_is_not_gone_on_with(arm):
+    typed(*GOING_ON, "--epochs", "100", "--set", "noise=cf:1e38")
+    again = ("--epochs", "200", "--set", "noise=cf:1e38", "--resume")
+    assert "diverged" in refused(*GOING_ON, *again)
+
+
+def test_a_training_begins_from_a_model(arm):
+    first, _ = trained_on("--epochs", "300", "--held-out", "0")
+    motions = dict(list(arm_motions().items())[:2])
+    motions["lift"] = motions["lift"] * 1.1  # also beyond the ranges of the model
+    write_csv("more.csv", {**motions, "nod": motions["reach"][::-1]})
+
+    begin = ("train", "more.csv", "--begin", "new.safetensors", "--out", "tuned.safetensors")
+    slow = ("--set", "weight_rate=1e-4", "initial_rate=1e-4")
+    status, told, errors = typed(*begin, "--epochs", "1", *slow)
+    assert (status, errors) == (0, "")
+    assert "Goes on from new.safetensors: 2 motions from their initial states there" in told
+    fit = load("tuned.safetensors")
+    assert fit.names == ("lift", "reach", "nod")
+    assert fit.network.channels == first.network.channels
+    assert len(fit.losses) == 1
+    np.testing.assert_allclose(fit.network.weights, first.network.weights, atol=1e-3)
+    io = fit.network.io_size
+    assert np.abs(fit.initial_states[:2, io:] - first.initial_states[:2, io:]).max() < 1e-3
+    assert np.abs(fit.initial_states[2, io:]).max() < 1e-3
+
+    status, told, errors = typed(*begin, "--epochs", "200", "--resume", *slow)
+    assert (status, errors) == (0, "")
+    assert "Goes on from its 1 epochs" in told
+
+    for changed, said in (
+        (("--levels", "7:3"), "the model's levels are io 4:2, 6:3; with --begin leave --levels"),
+        (("--levels", "6:4"), "the model's levels are"),
+        (("--levels", "6:3,2:70"), "the model's levels are"),
+        (("--io-tau", "3"), "the model's levels are"),
+        (("--range", "x=0:1"), "--range: with --begin the ranges are the model's"),
+        (("--channels", "x"), "the model's channel 'shoulder' is missing"),
+        (("--begin", "none.safetensors"), "none.safetensors: no such model file"),
+    ):
+        assert said in refused(*begin, "--epochs", "1", *changed)
+    assert typed(*begin, "--epochs", "1", "--levels", "6:3", "--io-tau", "2")[0] == 0

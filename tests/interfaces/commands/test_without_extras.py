@@ -6,7 +6,17 @@ import sys
 import pytest
 from typed import refused
 
-EXTRAS = ("pyarrow", "h5py", "mcap", "cv2", "sklearn", "onnx", "onnxruntime", "tensorboardX")
+EXTRAS = (
+    "pyarrow",
+    "h5py",
+    "mcap",
+    "rosbags",
+    "cv2",
+    "sklearn",
+    "onnx",
+    "onnxruntime",
+    "tensorboardX",
+)
 EXTRAS += ("rerun", "starlette", "uvicorn", "torch")
 EXTRAS += ("dask", "distributed", "filelock", "jinja2", "mujoco", "pandas")
 PLAINLY = """

@@ -49,13 +49,16 @@ def test_every_learned_motion_and_none_have_a_share_while_the_pen_moves(robot):
         assert [one["motion"] for one in message["belief"]] == ["UR ↓", "UR ←", "none of these"]
         shares = {one["motion"]: one["share"] for one in message["belief"]}
         assert sum(shares.values()) == pytest.approx(1, abs=1e-3)
-        best = max(shares, key=shares.__getitem__)
-        expected = ("UR", 0.0) if best == "none of these" else (best, shares[best])
-        assert (message["arrows"], message["confidence"]) == expected
+        seen = [one["share"] for one in message["seen"]]
+        assert len(seen) == 3 and seen == sorted(seen, reverse=True) and sum(seen) <= 1.001
         assert len(message["next"]) == 14
+    assert {message["seen"][0]["motion"] for message in understandings[3:]} == {"UR ↓"}
     rows = [len(message["path"]) for message in understandings]
     assert rows == sorted(rows) and rows[-1] > 10
-    assert len(of_kind(told, "verdict")) == 1 and not of_kind(told, "frames")
+    (verdict,) = of_kind(told, "verdict")
+    assert verdict["motion"] == verdict["seen"][0]["motion"] == "UR ↓"
+    assert not verdict["claim"]["made"] and verdict["advice"] == "imitate"
+    assert not of_kind(told, "frames")
 
 
 def test_a_robot_without_experiences_tells_nothing_of_what_it_sees(robot):

@@ -64,13 +64,16 @@ def test_drawing_understanding_verdict_imitation_learning(client, session):
     with page(client) as own:
         before = idle(own)
         verdict, noted = show(own, "UR ←")
-        assert verdict["shown"] == "UR ←" and 0 <= verdict["confidence"] <= 1
+        assert verdict["shown"] == verdict["motion"] == "UR ←" and verdict["advice"] == "imitate"
+        assert verdict["seen"][0]["share"] > 0.9 and not verdict["claim"]["made"]
         assert len(verdict["path"]) == len(verdict["drawn"]) and len(verdict["next"]) == 14
         assert noted["notebook"][-1]["motion"] == "UR ←" and noted["shown"] == verdict["entry"]
         assert len(noted["notebook"]) == len(before["notebook"]) + 1
 
         own.say({"type": "imitate"})
-        own.hear("performed")
+        performed = own.hear("performed")
+        assert performed["pushes"] == [] and performed["advice"] == "learn"
+        assert performed["sentence"].startswith("It missed by")
         frames = [m for m in own.heard if m["type"] == "frames"]
         count = sum(len(m["poses"]) for m in frames)
         assert count == 2 * len(verdict["drawn"]) - 1 and frames[-1]["last"]
@@ -99,7 +102,9 @@ def test_what_is_understood_is_told_while_the_pen_moves(client):
         for message in drawing:
             own.say(message)
         understanding = own.hear("understanding")
-        assert understanding["arrows"].startswith("UR") and len(understanding["next"]) == 14
+        assert (
+            understanding["seen"][0]["motion"].startswith("UR") and len(understanding["next"]) == 14
+        )
         own.say(up)
         own.hear("verdict")
 

@@ -40,7 +40,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
 }
 SEVERAL = (
     *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
-    *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary"),
+    *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary", "--topic"),
     *("--observed", "--log", "--like", "--start", "--hand"),
 )
 """Options that may be followed by several values."""

@@ -7,7 +7,7 @@ import numpy as np
 from rich.console import Console
 
 from motionese.channels import Channels
-from motionese.errors import NO_MOTION, SettingError, unknown
+from motionese.errors import HELD_OUT, NO_MOTION, SettingError, unknown
 from motionese.interfaces.commands.initial_states import read_initial_states
 from motionese.interfaces.commands.motion_figure import write_figure
 from motionese.interfaces.commands.outputs import PICTURES, RECORDINGS, check_apart, check_output
@@ -55,6 +55,8 @@ def generate_motion(
             f"say what to generate: --like EPISODE, one of {', '.join(known)}; or --initial FILE"
         )
     for name in like:
+        if initial is None and name in fit.validation_names:
+            raise SettingError(f"--like {name}: motion '{name}' {HELD_OUT}")
         if name not in known:
             raise SettingError(f"--like {name}: {unknown('motion', name, known)}")
     taken = list(like) or list(known)

@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from motionese.errors import MotioneseError
-from motionese.interfaces.commands.motion_figure import write_figure
+from motionese.interfaces.commands.motion_figure import MOST, write_figure
 from motionese.interfaces.commands.outputs import PICTURES, check_apart, check_output
 from motionese.interfaces.commands.summaries import number_table, tell_findings
 from motionese.recordings import (
@@ -51,7 +51,8 @@ def inspect_recordings(
     if refusal:
         console.print(f"! As it stands it cannot be learned from: {refusal}", soft_wrap=True)
     drawn = [e for e in found.episodes if len(e.values)]
-    paths = [np.where(e.observed & np.isfinite(e.values), e.values, np.nan) for e in drawn]
+    shown = [e.part(columns=slice(MOST)) for e in drawn]
+    paths = [np.where(e.observed & np.isfinite(e.values), e.values, np.nan) for e in shown]
     channels = list(zip(found.channels, found.units, strict=True))
     title = f"{source.name}: {len(found.episodes)} episodes"
     write_figure(plot, paths, [e.name for e in drawn], channels, rate, title)

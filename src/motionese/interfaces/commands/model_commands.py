@@ -32,10 +32,19 @@ def train(
     out: Annotated[Path, Option(metavar="MODEL.safetensors", help="The file to write.")],
     reading: dict[str, Any],
     levels: Annotated[
-        str, Option(metavar="SIZE:TAU,…", help="Context levels, fast first; τ in steps.")
-    ] = "40:5,8:70",
-    io_tau: Annotated[float, Option(metavar="TAU", help="τ of the IO level, in steps.")] = 2.0,
-    epochs: Annotated[int | None, Option(min=1, help="Default: 3000.")] = None,
+        str | None,
+        Option(
+            metavar="SIZE:TAU,…",
+            help="Context levels, fast first; τ in steps. Default: 40:5,8:70; with --begin the "
+            "model's.",
+        ),
+    ] = None,
+    io_tau: Annotated[
+        float | None, Option(metavar="TAU", help="τ of the IO level, in steps; default: 2.")
+    ] = None,
+    epochs: Annotated[
+        int | None, Option(min=1, help="In all, with those before --resume; default: 3000.")
+    ] = None,
     held_out: Annotated[
         str | None,
         Option(
@@ -50,8 +59,13 @@ def train(
     seed: Annotated[
         int, Option(min=0, max=LARGEST_SEED, help="Of weights, held-out motions, noise.")
     ] = 0,
+    begin: Annotated[
+        Path | None,
+        Option(metavar="MODEL", help="Begin from a trained model, with its channels and ranges."),
+    ] = None,
     resume: Annotated[
-        bool, Option("--resume", help="Go on with a training that was stopped.")
+        bool,
+        Option("--resume", help="Go on with a training that was stopped, or ended too early."),
     ] = False,
     log: Annotated[
         Texts, Option(metavar="jsonl|tensorboard|rerun …", help="Logs beside the model.")
@@ -73,6 +87,7 @@ def train(
             io_tau=io_tau,
             held_out=held_out,
             seed=seed,
+            begin=begin,
             resume=resume,
             settings=read_training(epochs, patience, overrides or ()),
             logs=separated(log),

@@ -6,17 +6,23 @@ from math import ceil
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from numpy import ndarray
 
 from motionese.errors import StorageError
-from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, finished
+from motionese.figure_style import FAINT, HUES, INK, SETTINGS, WIDTH, as_png, as_svg
 from motionese.files import write_whole
 
 COLUMNS, PANEL_HEIGHT, MOST = 3, 1.5, 30
 """Panels side by side, their height [inch], and how many channels are drawn at most."""
+LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.15, 0.65, 0.55
+"""Around the panels [inch]: numbers, nothing, the titles, and the axis of time."""
+LEGEND, LEGEND_COLUMNS = 0.25, 4
+"""Height of a line of names [inch], and how many stand in one."""
+POINTS = 240
+"""Pieces that an episode's rows are drawn in at most, each by its lowest and highest value."""
 LARGEST = 1e100
 """Beyond it values are gaps: an axis' arithmetic overflows."""
 MANY = 8
@@ -64,9 +70,10 @@ def write_drawing(path: Path, name: str, draw: Callable[[], Figure]) -> None:
     with rc_context({**SETTINGS, "text.parse_math": False}), warnings.catch_warnings():
         # A viewer of SVG has fonts for all scripts; a PNG shows a box where ours has no letter.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
-        drawn = finished(draw(), name)
+        drawn = draw()
+        content = as_png(drawn) if path.suffix.lower() == ".png" else as_svg(drawn, name)
     try:
-        write_whole(path, drawn.png if path.suffix.lower() == ".png" else drawn.svg)
+        write_whole(path, content)
     except OSError as error:
         raise StorageError(f"{path}: cannot be written: {error.strerror}") from error
 
@@ -80,14 +87,32 @@ def _figure(
 ) -> Figure:
     columns = min(COLUMNS, len(channels))
     rows = ceil(len(channels) / columns)
-    figure = Figure(figsize=(WIDTH, rows * PANEL_HEIGHT + 0.9))
-    panels = figure.subplots(rows, columns, sharex=True, squeeze=False).ravel()
     few = len(paths) < MANY
+    legend = LEGEND * ceil(len(paths) / LEGEND_COLUMNS) if few and len(paths) > 1 else 0.0
+    height = rows * PANEL_HEIGHT + TOP + BOTTOM + legend
+    # Panels that all hold the same need no layout that measures every text, which is most of the
+    # time that a figure takes.
+    figure = Figure(figsize=(WIDTH, height))
+    figure.set_layout_engine("none")
+    panels = figure.subplots(
+        rows,
+        columns,
+        sharex=True,
+        squeeze=False,
+        gridspec_kw={
+            "left": LEFT / WIDTH,
+            "right": 1 - RIGHT / WIDTH,
+            "top": 1 - TOP / height,
+            "bottom": (BOTTOM + legend) / height,
+            "wspace": 0.25,
+            "hspace": 0.45,
+        },
+    ).ravel()
     for column, (panel, (name, unit)) in enumerate(zip(panels, channels, strict=False)):
         for i, motion in enumerate(paths):
-            values = motion[:, column]
+            shown, values = thinned(np.ascontiguousarray(motion[:, column]))
             panel.plot(
-                np.arange(len(motion)) / (rate_hz or 1.0),
+                shown / (rate_hz or 1.0),
                 np.where(np.abs(values) <= LARGEST, values, np.nan),
                 color=COLOURS[i % len(COLOURS)] if few else INK,
                 linewidth=1.4 if few else 0.7,
@@ -103,6 +128,24 @@ def _figure(
         panel.tick_params(labelbottom=True)
     if few and len(paths) > 1:
         handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower left", ncols=4)
-    figure.suptitle(title, x=0.01, ha="left")
+        figure.legend(handles, labels, loc="lower left", ncols=LEGEND_COLUMNS)
+    figure.suptitle(title, x=0.01, y=1 - 0.1 / height, ha="left", va="top")
     return figure
+
+
+def thinned(values: Float[ndarray, " T"]) -> tuple[Int[ndarray, " K"], Float[ndarray, " K"]]:
+    """Return rows and values that look as all of them do: the extremes of every few rows.
+
+    Of rows of which any is NaN, the first that is stands for a break in the line.
+    """
+    step = len(values) // POINTS
+    if step < 2:
+        return np.arange(len(values)), values
+    whole = len(values) // step * step
+    blocks = values[:whole].reshape(-1, step)
+    with_nan = np.isnan(blocks)
+    low = np.where(with_nan, -np.inf, blocks).argmin(axis=1)
+    high = np.where(with_nan, -np.inf, blocks).argmax(axis=1)
+    rows = np.sort(np.stack([low, high], axis=1), axis=1) + np.arange(0, whole, step)[:, None]
+    rows = np.append(rows.ravel(), np.arange(whole, len(values)))
+    return rows, values[rows]

@@ -34,7 +34,7 @@ def recognise_motions(
     """Recognise every motion of a recording, and tell how well each was recognised.
 
     Args:
-        observed: Names or patterns of the channels that are looked at; all for None.
+        observed: Names or patterns of the channels that are looked at; all there are for None.
         out: Where to write the recognised motions, all channels; nowhere for None.
         initial: Where to write the initial states (.json); nowhere for None.
         reading: How `source` is read, as `Motions.read` takes it.
@@ -45,12 +45,7 @@ def recognise_motions(
         check_output("--out", out, RECORDINGS)
     check_apart([source, model], out, initial)
     fit = load(model)
-    assert fit.network.channels is not None, "a trained network carries channels"
-    names = fit.network.channels.names
-    seen = list(names) if observed is None else matching_channels(fit.network.channels, observed)
-    motions = read_for(fit, source, needed=seen, **reading)
-    console.print(f"{source}: looked at {', '.join(seen)}")
-    tell_findings(console, motions.examined)
+    motions, seen = read_observed(console, fit, source, observed, reading)
     found = _recognised(console, fit, motions.showing(seen), jax.random.key(seed))
     console.print(_table(fit, motions, found, seen))
     if initial is not None:
@@ -60,9 +55,31 @@ def recognise_motions(
         console.print(f"Initial states: {initial}")
     if out is not None:
         paths = [f.path for f in found]
-        channels, rate_hz = fit.network.channels, fit.rate_hz
+        channels, rate_hz = motions.channels, fit.rate_hz
         Motions.from_arrays(paths, channels, rate_hz, names=motions.names).write(out)
         console.print(f"Recognised motions: {out}")
+
+
+def read_observed(
+    console: Console,
+    fit: Fit,
+    source: Path,
+    observed: Sequence[str] | None,
+    reading: Mapping[str, Any],
+) -> tuple[Motions, list[str]]:
+    """Return motions for a model and the channels that are looked at, and tell which these are."""
+    channels = fit.network.channels
+    assert channels is not None, "a trained network carries channels"
+    needed = None if observed is None else matching_channels(channels, observed)
+    motions = read_for(fit, source, needed=needed, **reading)
+    there = np.flatnonzero(np.concatenate(motions.observed).any(axis=0))
+    seen = [channels.names[column] for column in there]
+    absent = [name for name in channels.names if name not in seen]
+    told = f"; not in the recording: {', '.join(absent)}" if absent and needed is None else ""
+    seen = seen if needed is None else needed
+    console.print(f"{source}: looked at {', '.join(seen)}{told}")
+    tell_findings(console, motions.examined)
+    return motions, seen
 
 
 def matching_channels(channels: Channels, patterns: Sequence[str]) -> list[str]:

@@ -17,10 +17,10 @@ from motionese.files import write_whole
 from motionese.interfaces.commands.belief_figure import write_belief_figure
 from motionese.interfaces.commands.online_trace import OnlineTrace, table_of, trace
 from motionese.interfaces.commands.outputs import PICTURES, check_apart, check_output
-from motionese.interfaces.commands.recognise import matching_channels
-from motionese.interfaces.commands.summaries import number_table, tell_findings
+from motionese.interfaces.commands.recognise import read_observed
+from motionese.interfaces.commands.summaries import number_table
 from motionese.interfaces.logs.training_logs import open_logs
-from motionese.learning import Motions, load, read_for, recognise_online
+from motionese.learning import Motions, load, recognise_online
 
 
 def recognise_online_motions(
@@ -40,7 +40,7 @@ def recognise_online_motions(
     Everything is checked before anything is written.
 
     Args:
-        observed: Names or patterns of the channels that are looked at; all for None.
+        observed: Names or patterns of the channels that are looked at; all there are for None.
         out: Where to write what was known (.csv); the figure (.svg) lies beside it.
         window: Rows that are looked back on.
         ahead: Rows that are predicted.
@@ -52,13 +52,9 @@ def recognise_online_motions(
     check_output("the figure of --out,", figure, PICTURES)
     check_apart([source, model], out, figure)
     fit = load(model)
-    channels = fit.network.channels
-    assert channels is not None, "a trained network carries channels"
-    seen = list(channels.names) if observed is None else matching_channels(channels, observed)
-    motions = read_for(fit, source, needed=seen, **reading).showing(seen)
+    motions, seen = read_observed(console, fit, source, observed, reading)
+    motions, channels = motions.showing(seen), motions.channels
     _check_window(source, motions, window)
-    console.print(f"{source}: looked at {', '.join(seen)}")
-    tell_findings(console, motions.examined)
     traces = []
     with open_logs(logs, out, timeline="row") as log:
         for name, rows in _tracked(console, motions):

@@ -29,8 +29,8 @@ def import_recordings(
     """Read recordings, choose and prepare what is to be learned, and write it as one file.
 
     SOURCE is a CSV or a folder of them, a LeRobot folder, HDF5 of robomimic, ALOHA,
-    ManiSkill or D4RL or a folder of it, an EIPL folder, MCAP with JSON messages, or .npz that
-    motionese wrote.
+    ManiSkill or D4RL or a folder of it, an EIPL folder, a ROS bag, MCAP with messages of JSON or
+    ROS, or .npz that motionese wrote.
     """
     with plainly("stopped; nothing was written") as console:
         from motionese.interfaces.commands.outputs import check_apart
@@ -125,7 +125,8 @@ def export(
         Path | None, Option(metavar="PATH", help="The file or folder to write data to.")
     ] = None,
     to: Annotated[
-        str | None, Option(metavar=FORMATS, help="As what; else by the suffix of PATH.")
+        str | None,
+        Option(metavar=FORMATS.removesuffix("|rosbag"), help="As what; else by PATH's suffix."),
     ] = None,
 ) -> None:
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""

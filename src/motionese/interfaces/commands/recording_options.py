@@ -21,7 +21,7 @@ def _option(name: str, metavar: str, help: str, kind: Any, default: Any = None) 
     return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
 
 
-FORMATS = "csv|npz|eipl|hdf5|lerobot|mcap"
+FORMATS = "csv|npz|npy|eipl|hdf5|lerobot|mcap|rosbag"
 STILL = "Cut still ends: rows in which nothing moves by more than this share of its range."
 LEAPS = "Where a channel leaps: nothing, a gap, an episode cut in two, or an error."
 OPTIONS = (
@@ -30,9 +30,17 @@ OPTIONS = (
     _option("format", FORMATS, "What SOURCE is; else found out.", Text),
     _option("episodes", "NAMES …", "Episodes to take: 0-9 'pick*'.", Texts),
     _option("skip", "NAMES …", "Episodes to leave out.", Texts),
-    _option("columns", "NAMES …", "Names of the columns of a table without a header.", Texts),
+    _option(
+        "columns",
+        "NAMES …",
+        "Names of the columns of a table without a header, or of an array.",
+        Texts,
+    ),
     _option("episode", "COLUMN", "The column of a CSV that names the episode.", Text),
     _option("time", "COLUMN", "The column of a CSV that is the time.", Text),
+    _option("topic", "PATTERN …", "Topics of a bag or MCAP to read.", Texts),
+    _option("pause", "SECONDS", "A silence of so long cuts a bag or MCAP into takes.", Number),
+    _option("marker", "TOPIC", "The topic of a bag or MCAP that marks its takes.", Text),
     _option("rate", "HZ", "Rows a second, where the recording does not tell.", Number),
     _option("resample", "HZ", "Rows a second to resample to.", Number),
     _option("trim", "SHARE", STILL, float, 0.0),
@@ -80,10 +88,12 @@ def as_read(
     unit: Texts = None,
     range: Texts = None,
     quaternion: Texts = None,
+    topic: Texts = None,
     **others: Any,
 ) -> dict[str, Any]:
     """Return what is given for these options as `Motions.read` takes it."""
-    lists = {name: others.pop(name, None) for name in LISTS} | {"quaternions": quaternion}
+    lists = {name: others.pop(name, None) for name in LISTS}
+    lists |= {"quaternions": quaternion, "topics": topic}
     return {
         **{name: separated(texts) or None for name, texts in lists.items()},
         "rate_hz": rate,

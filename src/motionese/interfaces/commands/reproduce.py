@@ -71,6 +71,8 @@ def _say_what(series: Series, folder: RunFolder, numbers: Sequence[int], console
     say(f"{count} runs{of}: {names}, each with seeds {as_ranges(numbers)}")
     if shown := series.shown:
         say(f"Recorded demonstrations of {', '.join(shown.recordings)}; the rest scripted")
+        for episode in shown.skipped:
+            say(f"Skipped: episode {episode}")
     for change in folder.changed:
         this = f"{folder.path}" if of else "This folder"
         say(f"{this} was begun with other versions ({change}): the bits may differ")

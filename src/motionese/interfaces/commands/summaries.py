@@ -9,12 +9,9 @@ from rich.console import Console
 from rich.table import Table
 
 from motionese.channels import Channels
-from motionese.learning import Fit, Motions
+from motionese.learning import Diagnosis, Fit, Motions
 from motionese.recordings import Finding
 from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
-
-GOOD, POOR = 0.03, 0.1
-"""Closed-loop errors, as shares of range, up to which a model is good and from which it is poor."""
 
 
 def number_table(*headings: str) -> Table:
@@ -43,27 +40,26 @@ def error_table(fit: Fit) -> Table:
     return table
 
 
-def verdict(fit: Fit) -> str:
-    """Return in words what the errors mean for a robot that is driven by the model."""
-    forced, closed = fit.share(fit.teacher_forced_error), fit.share(fit.closed_loop_error)
-    if np.isnan(closed):
+def verdict(fit: Fit, diagnosis: Diagnosis) -> str:
+    """Return in words what the errors mean for a robot that is driven by the model, and why.
+
+    Args:
+        fit: What was trained.
+        diagnosis: Of its last training.
+    """
+    if np.isnan(diagnosis.closed):
         return "No error can be told: nothing was observed after the motions' first rows."
     worst = np.array([fit.share(e) for e in fit.closed_loop_error])
     which = int(np.nanargmax(worst))
     parts = [
-        f"Root mean squared error as a share of range: teacher-forced {forced:.1%}, "
-        f"closed loop {closed:.1%} (worst motion '{fit.names[which]}' {worst[which]:.1%})"
+        f"Root mean squared error as a share of range: teacher-forced {diagnosis.forced:.1%}, "
+        f"closed loop {diagnosis.closed:.1%} (worst motion '{fit.names[which]}' {worst[which]:.1%})"
     ]
     if len(fit.validation_error):
-        unseen = fit.share(fit.validation_error)
-        parts.append(f"held-out motions {unseen:.1%}, recognised, in closed loop")
-    told = "; ".join(parts) + "."
-    if closed > POOR:
-        told += " On a robot these motions would not be recognisable: "
-        told += "train longer, or with more units."
-    elif closed > GOOD:
-        told += f" Closed-loop errors above {GOOD:.0%} can be seen."
-    return told
+        parts.append(f"held-out motions {diagnosis.unseen:.1%}, recognised, in closed loop")
+    before = len(fit.losses) - diagnosis.epochs
+    told = [] if fit.status.failed else diagnosis.sentences(before)
+    return " ".join([f"{'; '.join(parts)}.", *told])
 
 
 def _rms(errors: np.ndarray) -> float:

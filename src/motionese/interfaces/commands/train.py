@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import jax
-from pydantic import ValidationError
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
@@ -14,11 +13,29 @@ from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.model_commands import checkpoint_of
 from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_apart, check_output
 from motionese.interfaces.commands.summaries import description, error_table, tell_findings, verdict
+from motionese.interfaces.commands.training_start import (
+    ORIGIN,
+    Start,
+    check_levels,
+    gone_on,
+    read_begun,
+)
 from motionese.interfaces.logs.training_logs import open_logs
-from motionese.learning import Fit, Motions, Progress, Training, save, split, train
-from motionese.learning.training.training_state import epochs_done
-from motionese.network import MTRNN, Level
+from motionese.learning import (
+    Fit,
+    Motions,
+    Progress,
+    Training,
+    diagnose,
+    split,
+    train,
+    write_fit,
+)
+from motionese.learning.training.trainer import origin_of
+from motionese.network import MTRNN, Level, network_of
 
+LEVELS, IO_TAU = "40:5,8:70", 2.0
+"""Context levels as SIZE:TAU, and the time constant of the IO level, where none are given."""
 BY_LEVEL = ("bound", "noise")
 """Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
 MOST_UNITS = 5000
@@ -30,10 +47,11 @@ def train_model(
     source: Path,
     out: Path,
     *,
-    levels: str,
-    io_tau: float,
+    levels: str | None,
+    io_tau: float | None,
     held_out: str | None,
     seed: int,
+    begin: Path | None,
     resume: bool,
     settings: Training,
     logs: Sequence[str],
@@ -44,54 +62,88 @@ def train_model(
     Everything is checked before anything is written.
 
     Args:
-        levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first.
-        io_tau: Time constant of the IO level [steps].
+        levels: Context levels as SIZE:TAU,SIZE:TAU, fast ones first; `LEVELS` for None.
+        io_tau: Time constant of the IO level [steps]; `IO_TAU` for None.
         held_out: A share of the motions or their names, as in '0.2' or 'wave,lift'; see `split`.
         seed: Of the initial weights, the held-out motions and the state noise.
+        begin: A model whose network, ranges and initial states it begins from; None to draw one.
+        resume: Whether it goes on, from where it was stopped or has ended.
         logs: Kinds of logs, see `open_logs`.
         reading: How `source` is read, as `Motions.read` takes it.
     """
     checkpoint = _checkpoint(out, resume)
-    check_apart([source], out, checkpoint)
-    context = read_levels(levels)
-    motions = Motions.read(source, **reading)
-    learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
-    told = held_out is None and motions.set_apart
+    check_apart([source, *([begin] if begin else [])], out, checkpoint)
     drawn, noise = jax.random.split(jax.random.key(seed))
-    network = MTRNN.draw([Level(len(motions.channels), io_tau), *context], key=drawn)
-    done = epochs_done(checkpoint) if resume else 0
+    network: MTRNN | Fit
+    if begin is None:
+        context, motions = (
+            read_levels(LEVELS if levels is None else levels),
+            Motions.read(source, **reading),
+        )
+        io = Level(len(motions.channels), IO_TAU if io_tau is None else io_tau)
+        network = MTRNN.draw([io, *context], key=drawn)
+    else:
+        network, motions = read_begun(begin, source, reading)
+        check_levels(
+            begin, network.network, io_tau, None if levels is None else read_levels(levels)
+        )
+    learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
+    origin = origin_of(network, learned, settings, unseen, noise)
+    start = Start(network, settings, noise)
+    if resume:
+        start = gone_on(out, origin, start)
     console.print(f"{source}: {description(motions)}")
     tell_findings(console, motions.examined)
-    console.print(
-        f"Levels io {len(motions.channels)}:{io_tau:g}, {levels}; {len(learned)} motions to learn, "
-        f"{len(unseen or ())} held out{', as the file says' if told else ''}; "
-        "Ctrl-C stops, --resume goes on"
-    )
-    display = TrainingDisplay(console, settings.epochs, done)
-    with open_logs(logs, out, done) as log, display:
+    told = "as the file says" if held_out is None and motions.set_apart else ""
+    console.print(_told(start, begin, learned, unseen, told))
+    display = TrainingDisplay(console, settings.epochs, start.done)
+    earlier = start.done - start.stopped
+    with open_logs(logs, out, start.done) as log, display:
 
         def progress(now: Progress) -> None:
+            now = now._replace(epoch=now.epoch + earlier)
             display.show(now)
             numbers = {k: v for k, v in now._asdict().items() if v is not None and k != "epoch"}
             log.write(now.epoch, numbers)
 
         fit = train(
-            network,
+            start.network,
             learned,
-            settings=settings,
+            settings=start.settings,
             validation=unseen,
-            key=noise,
+            key=start.key,
             progress=progress,
             checkpoint=checkpoint,
         )
-    save(out, fit)
+    shown = diagnose(fit, learned, settings.teacher_forcing)
+    fit = fit if start.earlier is None else fit.after(start.earlier)
+    write_fit(out, fit, {}, {ORIGIN: origin})
     checkpoint.unlink(missing_ok=True)  # not before: what was learned is in one of the two files
     console.print(error_table(fit))
-    console.print(verdict(fit))
+    console.print(verdict(fit, shown))
     console.print(f"{fit.status}. The model is {out}")
     if fit.status.failed:
         raise SettingError(f"{out}: {fit.status}; train with smaller rates, --set weight_rate=0.01")
     return fit
+
+
+def _told(
+    start: Start, begin: Path | None, learned: Motions, unseen: Motions | None, why: str
+) -> str:
+    """Return in words what is trained, and from where."""
+    io, *context = (f"{level.size}:{level.taus[0]:g}" for level in network_of(start.network).levels)
+    told = [
+        f"Levels io {io}, {','.join(context)}; {len(learned)} motions to learn, "
+        f"{len(unseen or ())} held out{why and f', {why}'}; Ctrl-C stops, --resume goes on"
+    ]
+    if isinstance(start.network, Fit) and not start.stopped:
+        known = len(set(start.network.names) & set(learned.names))
+        what = f"{begin}" if start.earlier is None else f"its {start.done} epochs"
+        told.append(
+            f"Goes on from {what}: {known} motions from their initial states there; the "
+            "optimiser's memory and the schedule of its rates begin anew"
+        )
+    return "\n".join(told)
 
 
 def read_levels(levels: str | Sequence[tuple[int, float]]) -> list[Level]:
@@ -128,13 +180,7 @@ def read_training(epochs: int | None, patience: int | None, overrides: Sequence[
         given[name] = _by_level(told) if name in BY_LEVEL and ":" in told else told
         if name == "learned":
             given[name] = told.split(",")
-    try:
-        return Training(**given)
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = str(first["loc"][0])
-        what = first["msg"][:1].lower() + first["msg"][1:]
-        raise SettingError(f"setting {name} = {given[name]!r}: {what}") from error
+    return Training(**given)
 
 
 def read_held_out(text: str | None, motions: Motions) -> float | list[str] | None:
@@ -163,9 +209,6 @@ def _checkpoint(out: Path, resume: bool) -> Path:
     """Return where training is kept, after checking that it may be begun, or gone on with."""
     check_output("--out", out, (MODEL_SUFFIX,))
     checkpoint = checkpoint_of(out)
-    if resume and not checkpoint.exists():
-        ended = "; it has ended, the model is there" if out.exists() else ""
-        raise StorageError(f"--resume: there is no training to go on with at {checkpoint}{ended}")
     if checkpoint.exists() and not resume:
         raise StorageError(
             f"{checkpoint}: a training of this model was stopped; go on with it with --resume, "

@@ -1,7 +1,7 @@
 """What the page is told: the messages of the robot's process, made of what it knows."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,6 @@ from motionese.imitation import Scene
 from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
-from motionese.runtime.belief import NONE
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.frames import Film
 from motionese.teaching.interactive_map import InteractiveMap
@@ -26,6 +25,8 @@ from motionese.teaching.view import ASPECT, View
 DIGITS = 4
 PART_S = 0.2
 """Frames are sent in parts of so many seconds, each when it is due."""
+BARS = 3
+"""So many hypotheses about what was shown are told."""
 
 
 def scene_message(scene: Scene, view: View, geometry: Geometry) -> Answer:
@@ -121,43 +122,56 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
 
 def verdict_message(observed: Observation, view: View, seconds: float) -> Answer:
     """Return the verdict on a demonstration, `seconds` after it had ended."""
-    verdict = observed.verdict
+    verdict, claim = observed.verdict, observed.verdict.claim
     return {
         "type": "verdict",
         "entry": observed.entry.number,
-        "motion": verdict.recognised.name if verdict.recognised else "",
-        "shown": verdict.shown.name if verdict.shown else "",
-        "confidence": round(verdict.confidence, DIGITS),
-        "alternatives": [
-            {"motion": sequence.name, "confidence": round(confidence, DIGITS)}
-            for sequence, confidence in verdict.alternatives
-        ],
+        "motion": verdict.motion,
+        "shown": verdict.sequence.name if verdict.sequence else "",
+        "seen": _likeliest(verdict.seen),
+        "claim": {
+            "made": claim.made,
+            "sentence": claim.sentence,
+            "foretold_cm": round(claim.foretold_cm, 2),
+            "expected_cm": _known(claim.expected_cm),
+            "missed": list(claim.missed),
+            "like": claim.like,
+            "apart": _known(claim.apart),
+        },
         "path": listed(view.of_points(observed.interpretation.path)),
         "drawn": listed(view.of_points(observed.watched.path)),
         "next": listed(view.of_points(observed.interpretation.next)),
         "error_cm": round(verdict.error_cm, 2),
         "sentence": verdict.sentence,
+        "advice": verdict.advice,
         "ms": round(1000 * seconds),
     }
 
 
 def understanding_message(
-    understood: Understanding, start: str, view: View, milliseconds: int
+    understood: Understanding, seen: Mapping[str, float], view: View, milliseconds: int
 ) -> Answer:
-    """Return what is understood, so late in a drawing, of a motion that began at a place."""
-    likeliest, belief = understood.likeliest, understood.belief
-    known = likeliest != NONE
+    """Return what was seen, and what is understood of it, so late in a drawing."""
     return {
         "type": "understanding",
         "t_ms": milliseconds,
-        "arrows": likeliest if known else start,
-        "confidence": round(belief[likeliest], DIGITS) if known else 0.0,
+        "seen": _likeliest(seen),
         "belief": [
-            {"motion": motion, "share": round(share, DIGITS)} for motion, share in belief.items()
+            {"motion": motion, "share": round(share, DIGITS)}
+            for motion, share in understood.belief.items()
         ],
         "path": listed(view.of_points(understood.path)),
         "next": listed(view.of_points(understood.next)),
     }
+
+
+def _likeliest(seen: Mapping[str, float]) -> list[Answer]:
+    """Return the likeliest of what may have been shown."""
+    return [{"motion": m, "share": round(s, DIGITS)} for m, s in [*seen.items()][:BARS]]
+
+
+def _known(value: float) -> float | None:
+    return round(value, 2) if np.isfinite(value) else None
 
 
 def shown_message(motion: str, seen: Float[ndarray, "T 2"], step_ms: float) -> Answer:
@@ -168,12 +182,25 @@ def shown_message(motion: str, seen: Float[ndarray, "T 2"], step_ms: float) -> A
 
 def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -> Answer:
     """Return how a performance went, its hand seen in the view."""
-    effects = trial.performance.effects.items()
+    effects, result = trial.performance.effects.items(), trial.result
     return {
         "type": "performed",
         "entry": entry.number,
         "error_cm": round(trial.error_cm, 2),
         "effects": {name: round(float(values.max()), 1) for name, values in effects},
+        "pushes": [
+            {
+                "effect": push.effect,
+                "place": push.place,
+                "depth_mm": round(push.depth_mm, 1),
+                "needed_mm": push.needed_mm,
+                "made": push.made,
+            }
+            for push in result.pushes
+        ],
+        "good": result.good,
+        "sentence": result.sentence,
+        "advice": result.advice,
         "attempt": len(entry.errors_cm),
         "path": listed(seen),
     }

@@ -86,7 +86,8 @@ class Pen:
         if not understood:
             return
         start = start_of(path, teaching.scene.task).start
-        self._tell(understanding_message(understood[-1], start, self._view, milliseconds))
+        seen = teaching.seen(path, whole=False)
+        self._tell(understanding_message(understood[-1], seen, self._view, milliseconds))
         if self._follows:
             self._follow(understood, start)
 

@@ -6,14 +6,16 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.errors import SettingError
 from motionese.learning.generation.generate import carried, generate, placed
 from motionese.minimum_jerk import minimum_jerk, transition_rows
-from motionese.network import MTRNN
+from motionese.network import MTRNN, Trained, network_of
 
 
+@refusing()
 def generate_sequence(
-    network: MTRNN,
+    network: MTRNN | Trained,
     initial_states: Sequence[Float[ndarray, " N"]] | Float[ndarray, "M N"],
     steps: Sequence[int],
     *,
@@ -28,7 +30,7 @@ def generate_sequence(
     the weight 10 s³ − 15 s⁴ + 6 s⁵ (no velocity and no acceleration at either end).
 
     Args:
-        network: A network that carries channels.
+        network: A network that carries channels, or what training left.
         initial_states: u_0 of all levels, one for every motion.
         steps: Rows of every motion; the blend is part of the later one.
         blend: Rows of a transition. Where left out, as many as it needs to be about as fast as
@@ -45,6 +47,7 @@ def generate_sequence(
         SettingError: No motions, not one number of steps for each, fewer than 2 steps, or no more
             than the blend.
     """
+    network = network_of(network)
     if not len(initial_states) or len(steps) != len(initial_states):
         raise SettingError(
             f"a sequence needs motions and one number of steps for each, "

@@ -12,14 +12,16 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
-from motionese.network import MTRNN, rollout
+from motionese.network import MTRNN, Trained, network_of, rollout
 from motionese.unit_interval import logit
 
 
+@refusing()
 def generate(
-    network: MTRNN,
+    network: MTRNN | Trained,
     initial_state: Float[ndarray, "*batch N"],
     steps: int,
     *,
@@ -29,7 +31,7 @@ def generate(
     """Generate motions in closed loop.
 
     Args:
-        network: A network that carries channels.
+        network: A network that carries channels, or what training left.
         initial_state: u_0 of all levels, of one motion or of a batch.
         steps: Rows T of the result.
         first: What is sensed at the first row, in the channels' units: the network's first
@@ -41,19 +43,21 @@ def generate(
         The path in the channels' units, binary channels held at their two values. Row 0 is
         `first`, and y_0 where that is not given.
     """
+    network = network_of(network)
     lasting = network if duration == 1.0 else network.lasting(duration)
     return _closed_loop(lasting, initial_state, steps, first)[0]
 
 
+@refusing()
 def activity(
-    network: MTRNN,
+    network: MTRNN | Trained,
     initial_state: Float[ndarray, "*batch N"],
     steps: int,
     *,
     first: Float[ndarray, "*batch D"] | None = None,
 ) -> Float[ndarray, "*batch T N"]:
     """Return y of all units while the network generates, as `generate` does."""
-    return _closed_loop(network, initial_state, steps, first)[1]
+    return _closed_loop(network_of(network), initial_state, steps, first)[1]
 
 
 def carried(network: MTRNN) -> Channels:
@@ -63,8 +67,9 @@ def carried(network: MTRNN) -> Channels:
     return network.channels
 
 
+@refusing()
 def placed(
-    network: MTRNN, initial_state: Float[ndarray, "*batch N"], here: Mapping[str, float]
+    network: MTRNN | Trained, initial_state: Float[ndarray, "*batch N"], here: Mapping[str, float]
 ) -> Float[ndarray, "*batch N"]:
     """Return initial states of motions that begin where the robot is.
 
@@ -73,13 +78,14 @@ def placed(
     at 0: it takes up where the robot is as its first input alone, `first` of `generate`.
 
     Args:
-        network: A network that carries channels.
+        network: A network that carries channels, or what training left.
         initial_state: u_0 of all levels, of one motion or of a batch.
         here: Where the robot is, by channel, in the channels' units.
 
     Raises:
         ChannelError: A channel that the network does not have, or a value that is not finite.
     """
+    network = network_of(network)
     channels = carried(network)
     columns, values = channels.indices(here), np.full(len(channels), 0.0)
     values[columns] = list(here.values())
@@ -88,9 +94,19 @@ def placed(
         raise ChannelError(
             f"channel '{wrong[0]}': where the robot is must be finite, got {here[wrong[0]]}"
         )
-    states = np.array(initial_state)
+    states = _states(network, initial_state)
     if network.initial_io == "sensed":
         states[..., columns] = logit(channels.to_unit(values)[columns])
+    return states
+
+
+def _states(network: MTRNN, given: Float[ndarray, "*batch N"]) -> Float[ndarray, "*batch N"]:
+    """Return a copy of initial states; `SettingError` if they are of another network."""
+    states = np.array(given)
+    if states.shape[-1] != network.size:
+        raise SettingError(
+            f"initial states must have one value per unit ({network.size}), got {states.shape[-1]}"
+        )
     return states
 
 
@@ -100,11 +116,7 @@ def _closed_loop(
     steps: int,
     first: Float[ndarray, "*batch D"] | None,
 ) -> tuple[ndarray, ndarray]:
-    channels, start = carried(network), np.asarray(initial_state)
-    if start.shape[-1] != network.size:
-        raise SettingError(
-            f"initial states must have one value per unit ({network.size}), got {start.shape[-1]}"
-        )
+    channels, start = carried(network), _states(network, initial_state)
     if steps < 2:
         raise SettingError(f"steps must be ≥ 2, got {steps}")
     flat = jnp.asarray(start.reshape(-1, network.size), network.weights.dtype)
@@ -112,6 +124,8 @@ def _closed_loop(
     share = np.zeros_like(sensed)
     if first is not None:
         row = channels.to_unit(np.asarray(first)).reshape(-1, network.io_size)
+        if len(row) != len(flat):
+            raise SettingError(f"first must be one row for each of {len(flat)}, got {len(row)}")
         share[:, 0] = given = np.isfinite(row)
         sensed[:, 0] = np.where(given, row, 0.5)
     inputs = (jnp.asarray(part, flat.dtype) for part in (sensed, share))

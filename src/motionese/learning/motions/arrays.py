@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy import ndarray
 
+from motionese.arguments import numbers
 from motionese.channels import Channel, Channels
 from motionese.errors import ChannelError, MotionError, unknown
 from motionese.recordings import MARGIN, range_of
@@ -25,10 +26,10 @@ def checked(
     if not len(arrays):
         raise MotionError("no motions given; at least one is needed")
     called = tuple(names) if names is not None else tuple(str(i) for i in range(len(arrays)))
-    values = tuple(np.array(a, dtype=np.float64) for a in arrays)
+    values = tuple(numbers("a motion", a, MotionError) for a in arrays)
     if observed is None:
         observed = [np.ones(v.shape, dtype=bool) for v in values]
-    masks = tuple(np.array(m, dtype=bool) for m in observed)
+    masks = tuple(numbers("a mask", m, MotionError).astype(bool) for m in observed)
     if not len(values) == len(masks) == len(called):
         raise MotionError(
             f"{len(values)} motions need as many masks and names, "
@@ -60,7 +61,7 @@ def checked_weights(
     weights: Sequence[Any], values: Sequence[ndarray], names: Sequence[str]
 ) -> tuple[ndarray, ...]:
     """Return the weights of motions' values, copied; `MotionError` where they cannot be."""
-    counts = tuple(np.array(w, dtype=np.float64) for w in weights)
+    counts = tuple(numbers("weights", w, MotionError) for w in weights)
     if len(counts) != len(values):
         raise MotionError(f"{len(values)} motions need as many weights, got {len(counts)}")
     for name, count, value in zip(names, counts, values, strict=True):

@@ -15,8 +15,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
+from motionese.arguments import refusing, several
 from motionese.channels import Channels
-from motionese.errors import MotionError, unknown
+from motionese.errors import ChannelError, MotionError, RecordingError, unknown
 from motionese.learning.motions.arrays import channels_of, checked, checked_weights
 from motionese.learning.motions.batch import Batch
 from motionese.recordings import OPTIONS, Episode, Finding, Recording, choose, prepare
@@ -50,10 +51,11 @@ class Motions:
     held_out: tuple[str, ...] = ()
 
     @classmethod
+    @refusing(MotionError)
     def from_arrays(
         cls,
         arrays: Sequence[Any] | ndarray,
-        channels: Channels | Sequence[str],
+        channels: Channels | Sequence[str] | str,
         rate_hz: float,
         *,
         observed: Sequence[Any] | None = None,
@@ -85,6 +87,8 @@ class Motions:
             ChannelError: A channel that never changes and has no range given, or a unit or range
                 of a channel that is not there.
         """
+        if isinstance(channels, str):
+            channels = [channels]
         if not (np.isfinite(rate_hz) and rate_hz > 0):
             raise MotionError(f"rate_hz must be finite and > 0, got {rate_hz}")
         labels = channels.names if isinstance(channels, Channels) else tuple(channels)
@@ -95,16 +99,18 @@ class Motions:
         return cls(values, masks, channels, float(rate_hz), called, counts)
 
     @classmethod
+    @refusing(RecordingError)
     def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
-        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, or mcap; a file or a folder.
+        """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, ROS bags, mcap; a file or a folder.
 
         Args:
             path: The file or folder.
             format: One of `recordings.FORMATS`; found from what is there where left out.
             given: Any of `recordings.OPTIONS`, which say what is what in a file: `episode`, `time`,
-                `columns`; and any of `recordings.Choice`: `channels`, `exclude`, `rate_hz`,
-                `resample_hz`, `trim`, `nan`, `units`, `ranges`, `margin`, `episodes`, `skip`,
-                `unwrap`, `quaternions`, `leaps`, `binary`, `strict`.
+                `columns` of tables, `topics`, `pause`, `marker` of logs; and any of
+                `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`, `trim`, `nan`,
+                `units`, `ranges`, `margin`, `episodes`, `skip`, `unwrap`, `quaternions`, `leaps`,
+                `binary`, `strict`.
 
         Raises:
             RecordingError: Nothing that can be read there, or a rate that is not told.
@@ -137,6 +143,7 @@ class Motions:
             held_out=recording.held_out,
         )
 
+    @refusing(RecordingError)
     def write(self, path: str | Path, format: str | None = None) -> None:
         """Write the motions without their weights, whole or not at all.
 
@@ -169,13 +176,14 @@ class Motions:
         """Names of the motions here that the recording sets apart for testing."""
         return tuple(name for name in self.names if name in self.held_out)
 
-    def chosen(self, which: Sequence[int | str]) -> "Motions":
+    @refusing(MotionError)
+    def chosen(self, which: Sequence[int | str] | int | str) -> "Motions":
         """Return the motions of these names or indices, in this order.
 
         Raises:
             MotionError: A name or index that is not there, or none at all.
         """
-        rows = [self._row(one) for one in which]
+        rows = [self._row(one) for one in several(which)]
         if not rows:
             raise MotionError("no motions chosen; at least one is needed")
         return replace(
@@ -186,16 +194,18 @@ class Motions:
             weights=self.weights and tuple(self.weights[i] for i in rows),
         )
 
-    def showing(self, channels: Sequence[str]) -> "Motions":
-        """Return the same motions with only the named channels observed."""
+    def showing(self, channels: Sequence[str | int] | str | int) -> "Motions":
+        """Return the same motions with only some channels observed, by name or number."""
         seen = np.zeros(len(self.channels), dtype=bool)
         seen[self.channels.indices(channels)] = True
         return replace(self, observed=tuple(mask & seen for mask in self.observed))
 
+    @refusing(ChannelError)
     def scaled_by(self, channels: Channels) -> "Motions":
         """Return the same values, to be mapped to the unit interval by other channels."""
         return replace(self, channels=channels)
 
+    @refusing(MotionError)
     def batch(self, length: int | None = None, capacity: int | None = None) -> Batch:
         """Return the motions padded to one length.
 

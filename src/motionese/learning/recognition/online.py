@@ -4,11 +4,13 @@ from typing import Any
 
 import numpy as np
 
+from motionese.arguments import refusing
 from motionese.errors import NO_MOTION, SettingError
 from motionese.learning.fit import Fit
 from motionese.runtime import OnlineRecognition, RuntimeModel
 
 
+@refusing()
 def recognise_online(fit: Fit, **settings: Any) -> OnlineRecognition:
     """Return what recognises motions while they happen, reading by reading.
 

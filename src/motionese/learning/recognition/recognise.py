@@ -5,7 +5,7 @@ states at once: recalled ones of learned motions, those given, and random ones. 
 with the smallest error is kept, or that which first comes as near as motions were learned.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from math import isclose
@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.channels import Channels
 from motionese.errors import ChannelError, SettingError
 from motionese.learning.fit import Fit
@@ -37,11 +38,12 @@ Model = MTRNN | Fit | tuple[MTRNN, Memory]
 """What training left, or a network with what it has learned, or a trained network alone."""
 
 
+@refusing()
 def recognise(
     model: Model,
     motion: Motions | Float[ndarray, "T D"],
     *,
-    observed: list[str] | None = None,
+    observed: Sequence[str | int] | str | int | None = None,
     rows: slice | None = None,
     starts: Float[ndarray, "M N"] | None = None,
     settings: Recognition | None = None,
@@ -54,7 +56,7 @@ def recognise(
             has no memory of its motions to start from, and can recognise few hidden channels.
         motion: One motion, or its values [T, D] in the channels' units; what is not looked at may
             be anything, NaN included.
-        observed: Names of the channels that are looked at; all if left out.
+        observed: Names or numbers of the channels that are looked at; all if left out.
         rows: The stretch of time that is looked at; all if left out. Row 0 stays the time of u_0.
         starts: Initial states to start from beside the recalled and the random ones.
         settings: Iterations, starts, rate, bounds.
@@ -76,7 +78,10 @@ def recognise(
 
 
 def _looked_at(
-    length: int, channels: Channels, observed: list[str] | None, rows: slice | None
+    length: int,
+    channels: Channels,
+    observed: Sequence[str | int] | str | int | None,
+    rows: slice | None,
 ) -> Bool[ndarray, "T D"]:
     mask = np.zeros((length, len(channels)), dtype=bool)
     columns = channels.indices(channels.names if observed is None else observed)
@@ -84,6 +89,7 @@ def _looked_at(
     return mask
 
 
+@refusing()
 def recognise_all(
     model: Model,
     motions: Motions,

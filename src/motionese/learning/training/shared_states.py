@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 from motionese.errors import SettingError, unknown
 from motionese.network import MTRNN
 
-Groups = Mapping[str, Sequence[Hashable]]
+Groups = Mapping[str, Sequence[Hashable] | str]
 """By level: which group every motion belongs to; the members of a group share its states."""
 
 

@@ -7,6 +7,7 @@ from time import monotonic
 from jaxtyping import Array, Float
 from numpy import ndarray
 
+from motionese.arguments import refusing
 from motionese.learning.fit import Fit
 from motionese.learning.motions.motions import Motions
 from motionese.learning.settings import Training
@@ -19,8 +20,9 @@ CHECKPOINT_EVERY_S = 5.0
 """A kill loses at most about so many seconds of training."""
 
 
+@refusing()
 def train(
-    network: MTRNN,
+    network: MTRNN | Fit,
     motions: Motions,
     *,
     epochs: int | None = None,
@@ -39,11 +41,14 @@ def train(
     tells how well motions that were not learned fit the network.
 
     Args:
-        network: Where to start from.
+        network: Where to start from: a network, or what training left of one. A motion that the
+            latter learned goes on from its initial states there; the optimiser's memory and the
+            schedule of its rates begin anew.
         motions: What to learn.
         epochs: Overrides `settings.epochs`.
         settings: Rates, optimiser, bounds, noise.
-        initial_states: Initial states of every motion to start from; 0 where left out.
+        initial_states: Initial states of every motion to start from; where left out those of the
+            motion called so in a fit that is gone on from, else 0.
         shared: By level, which group every motion belongs to: the motions of a group share their
             initial states of that level. Those of a level that is not named are every motion's own.
         validation: Motions held out.

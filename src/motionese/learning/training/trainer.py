@@ -26,7 +26,7 @@ from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.training.epochs import Iterate, run_epochs
 from motionese.learning.training.shared_states import Groups, averaged, averaging
 from motionese.learning.training.training_state import TrainingState
-from motionese.network import MTRNN
+from motionese.network import MTRNN, network_of
 
 CHUNK = 100
 """Epochs in one compiled call; progress is told and convergence judged between calls."""
@@ -164,7 +164,7 @@ class Trainer:
 
 
 def make_trainer(
-    network: MTRNN,
+    network: MTRNN | Fit,
     motions: Motions,
     epochs: int | None,
     settings: Training,
@@ -175,9 +175,12 @@ def make_trainer(
     padded_to: tuple[int, int] | None,
 ) -> Trainer:
     """Check what is to be trained, with the arguments of `train`."""
-    settings = settings if epochs is None else settings.model_copy(update={"epochs": epochs})
+    settings = settings if epochs is None else settings.model_copy(update={"epochs": int(epochs)})
     if settings.epochs < 1:
         raise SettingError(f"epochs must be ≥ 1, got {settings.epochs}")
+    if initial_states is None and isinstance(network, Fit):
+        initial_states = network.states_of(motions.names)
+    network = network_of(network)
     network, motions = with_shared_channels(network, motions)
     if validation is not None:
         if validation.rate_hz != motions.rate_hz:
@@ -215,12 +218,24 @@ def make_trainer(
     )
 
 
+def origin_of(
+    network: MTRNN | Fit,
+    motions: Motions,
+    settings: Training,
+    validation: Motions | None,
+    key: Array,
+) -> dict[str, str]:
+    """Return what a training must agree on to go on, whatever the number of its epochs."""
+    return make_trainer(network, motions, 1, settings, None, {}, validation, key, None).origin
+
+
 def _states(
     network: MTRNN, motions: int, count: int, given: Float[ndarray, "S N"] | None
 ) -> Float[Array, "C N"]:
     """Return the initial states to start from, for `count` motions with those that pad."""
     states = np.zeros((count, network.size))
     if given is not None:
+        given = np.asarray(given)
         if given.shape != (motions, network.size):
             raise SettingError(
                 f"initial states must have shape {(motions, network.size)}, got {given.shape}"

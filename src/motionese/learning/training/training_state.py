@@ -69,9 +69,9 @@ class TrainingState:
         return TrainingState(latest, best, arrays["held_out"], *(arrays[name] for name in SERIES))
 
 
-def epochs_done(path: Path) -> int:
-    """Return after how many epochs a checkpoint was written; `StorageError` if it is none."""
-    return int(_contents(path)[0]["epochs"])
+def checkpoint_facts(path: Path) -> dict[str, str]:
+    """Return what a checkpoint belongs to, and its `epochs`; `StorageError` if it is none."""
+    return _contents(path)[0]
 
 
 def _contents(path: Path) -> tuple[dict[str, str], dict[str, ndarray]]:

@@ -77,7 +77,7 @@ def fault(error: ValidationError) -> str:
     first = error.errors(include_url=False)[0]
     where = ".".join(str(part) for part in first["loc"])
     what = first["msg"].removeprefix("Value error, ")
-    return f"{where}: {what}" if where else what
+    return " ".join(f"{where}: {what}".split()) if where else what
 
 
 def why(error: BaseException) -> str:

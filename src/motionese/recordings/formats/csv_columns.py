@@ -1,91 +1,88 @@
-"""The columns of a table: episode, time or channel, in which unit; as numbers and as times."""
+"""The columns of tables as channels: numbers, and words that stand for two states."""
 
-import re
+import shlex
 from collections.abc import Sequence
-from datetime import datetime
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float
 from numpy import ndarray
 
-from motionese.errors import RecordingError, unknown
-from motionese.recordings.formats.conventions import is_bookkeeping
-from motionese.recordings.formats.csv_table import Table, floats, is_number, plain
+from motionese.errors import RecordingError
+from motionese.recordings.finding import Finding
+from motionese.recordings.formats.csv_cells import floats, is_number, plain
+from motionese.recordings.formats.csv_names import is_measured, split_unit
+from motionese.recordings.formats.csv_table import Table
+from motionese.recordings.nature import counts_rows, runs
 
-EPISODE = (
-    *("episode", "episode_index", "episode_id"),
-    *("trial", "demo", "demonstration", "sequence", "motion"),
-)
-SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9}
-"""How long one of each unit of time is [s]."""
-TIME = (
-    *("time", "t", "timestamp", "stamp", "seconds"),
-    *(f"{name}_{unit}" for name in ("time", "timestamp") for unit in SECONDS),
-)
-COUNTERS = ("frame", "frame_index", "index", "row", "sample", "unnamed: 0")
-"""Columns that number the rows: never taken unless they are chosen."""
-UNIT = r"rad|deg|°|degrees|radians|%|px|pixels|[cmkµu]?(m|s|N|V|A|g)|sec|ns|Nm|N·m|N\*m|°C|Pa"
-"""Units that are understood in round brackets, in which names may have other things as well."""
-LATEST_S = 1e11
-"""A time [s], since 1970 or any other moment, that no clock shows."""
+Numbers = tuple[Float[ndarray, " T"], Bool[ndarray, " T"]]
+STATES = (("off", "closed", "close", "shut", "no"), ("on", "open", "opened", "yes"))
+"""Words that stand for 0, and words that stand for 1."""
+MOST_WORDS = 3
+"""Words of a column that are told."""
 
 
-def header(path: Path, cells: Sequence[str]) -> Sequence[str]:
-    """Return the columns' names; `RecordingError` if the first line holds values instead."""
-    values = [cell for cell in cells if is_number(cell.replace(",", "."))]
-    # pandas calls the columns of a bare array 0, 1, 2, …; these are names.
-    counted = len(values) > 1 and values == [str(i) for i in range(len(values))]
-    named = named_column(path, cells, None, (*EPISODE, *TIME)) is not None
-    if values and not (counted or named) and 2 * len(values) >= sum(map(bool, cells)):
-        raise RecordingError(
-            f"{path}: the first line holds values ({', '.join(cells[:3])}, …); "
-            "it must name the columns"
-        )
-    doubled = sorted({cell for cell in cells if cell and list(cells).count(cell) > 1})
-    if doubled:
-        raise RecordingError(f"{path}: columns must be unique; doubled: {', '.join(doubled)}")
-    return cells
+@dataclass(frozen=True)
+class Channel:
+    """One column of numbers over all tables.
 
-
-def named_column(
-    path: Path, names: Sequence[str], given: str | None, usual: Sequence[str]
-) -> int | None:
-    """Return the column that was named, or else the first of the usual names that is there."""
-    bare = [split_unit(name)[0] for name in names]
-    if given is not None:
-        if given in (either := [*names, *bare]):
-            return either.index(given) % len(names)
-        raise RecordingError(f"{path}: {unknown('column', given, filter(None, names))}")
-    # ROS calls the time %time, PlotJuggler __time.
-    folded = [name.casefold().lstrip("%_# ") for name in bare]
-    return next((folded.index(name) for name in usual if name in folded), None)
-
-
-def is_measured(name: str) -> bool:
-    """Whether a column of this name holds more than the row's number, stamp or header."""
-    return name.casefold() not in COUNTERS and not is_bookkeeping(name)
-
-
-def split_unit(name: str) -> tuple[str, str]:
-    """Return the name and the unit of "shoulder [rad]" or "shoulder (rad)"; empty where none is.
-
-    Without the space a square bracket belongs to the name, as in "position[0]".
+    Attributes:
+        numbers: What it holds in each table; None where it stands among the table's own numbers.
+        binary: Whether it was made of words, 0 and 1.
     """
-    found = re.fullmatch(r"(.*\S)\s+\[([^\[\]]*)\]", name) or re.fullmatch(
-        rf"(.*[^\s(])\s*\((({UNIT})(/s(\^?2|²)?)?)\)", name
-    )
-    return (found[1], found[2].strip()) if found else (name, "")
+
+    column: int
+    name: str
+    unit: str
+    numbers: tuple[Numbers, ...] | None
+    binary: bool = False
 
 
-def label(name: str, unit: str) -> str:
-    """Return the header from which `split_unit` gives back the name and the unit."""
-    return f"{name} [{unit}]" if unit or split_unit(name) != (name, "") else name
+def label_of(table: Table, column: int) -> tuple[str, str]:
+    """Return a column's name and unit, as its header or the row of units tells it."""
+    name, unit = split_unit(table.header[column])
+    return name, unit or (table.units[column] if table.units else "")
 
 
-def numbers(table: Table, column: int) -> tuple[Float[ndarray, " T"], Bool[ndarray, " T"]] | None:
+def channels_of(
+    tables: Sequence[Table], taken: Sequence[int | None], named: bool
+) -> tuple[list[Channel], list[Finding]]:
+    """Return the channels of tables that have the same columns, and what was left out or converted.
+
+    Args:
+        tables: One or more, with the same header.
+        taken: Columns that name the episodes or tell the time.
+        named: Whether anything names the episodes already.
+    """
+    channels, findings = [], []
+    for column, name in enumerate(tables[0].header):
+        if column not in taken:
+            channel, finding = _channel(tables, column, named)
+            channels += [channel] if channel and name else []
+            findings += [finding] if finding else []
+    return channels, findings
+
+
+def matrix(
+    table: Table, number: int, channels: Sequence[Channel]
+) -> tuple[Float[ndarray, "T D"], Bool[ndarray, "T D"]]:
+    """Return what channels hold in the table of this number; a view where that can be."""
+    if all(c.numbers is None for c in channels):
+        places = [table.plain[c.column] for c in channels]
+        if places == list(range(places[0], places[0] + len(places))):
+            columns = slice(places[0], places[0] + len(places))
+            return table.numbers[:, columns], table.observed[:, columns]
+        return table.numbers[:, places], table.observed[:, places]
+    found = [_own(table, c.column) if c.numbers is None else c.numbers[number] for c in channels]
+    values, observed = (np.stack(kind, axis=1) for kind in zip(*found, strict=True))
+    return values, observed
+
+
+def numbers(table: Table, column: int) -> Numbers | None:
     """Return a column as numbers and what was observed of it; None if all of it is text."""
-    cells = table.columns[column]
+    if column in table.plain:
+        return _own(table, column)
+    cells = table.cells[column]
     try:
         return floats(cells), np.array([bool(cell) for cell in cells], dtype=bool)
     except ValueError:
@@ -95,7 +92,7 @@ def numbers(table: Table, column: int) -> tuple[Float[ndarray, " T"], Bool[ndarr
     wrong = [row for row, cell in enumerate(cells) if cell and not is_number(cell)]
     if not wrong:
         return floats(cells), filled
-    first = table.columns[column][wrong[0]]
+    first = table.cells[column][wrong[0]]
     # "0,5" is a number, but not where commas separate the cells.
     if len(wrong) == filled.sum() and not is_number(first.replace(",", ".")):
         return None
@@ -105,38 +102,66 @@ def numbers(table: Table, column: int) -> tuple[Float[ndarray, " T"], Bool[ndarr
     )
 
 
-def times(table: Table, column: int) -> Float[ndarray, " T"]:
-    """Return a column of times [s], NaN where a cell is empty."""
-    name, found = table.header[column], numbers(table, column)
-    if found is not None:
-        bare, unit = split_unit(name)
-        told = SECONDS.get(unit or bare.rpartition("_")[2].casefold())
-        return found[0] * (_unit_shown(found[0]) if told is None else told)
-    dates = _dates(table.columns[column])
-    if dates is None:
-        raise RecordingError(
-            f"{table.where(0)}: column '{name}' holds text, not times in numbers "
-            f"or as in 2024-01-31 12:00:00.25, got '{table.columns[column][0][:40]}'"
-        )
-    return dates
+def _channel(
+    tables: Sequence[Table], column: int, named: bool
+) -> tuple[Channel | None, Finding | None]:
+    name, unit = label_of(tables[0], column)
+    if all(column in table.plain for table in tables):
+        return Channel(column, name, unit, None), _nameless(tables, column)
+    found = [numbers(table, column) for table in tables]
+    if all(f is not None for f in found):
+        channel = Channel(column, name, unit, tuple(f for f in found if f is not None))
+        return channel, _nameless(tables, column)
+    if not name or not is_measured(name):
+        return None, None
+    for table, here in zip(tables, found, strict=True):
+        if here is not None and here[1].any():
+            raise RecordingError(
+                f"{table.path}: column '{name}' holds numbers; in other files it holds words"
+            )
+    return _worded(tables, column, named)
 
 
-def _unit_shown(stamps: Float[ndarray, " T"]) -> float:
-    """Return the unit [s] of stamps that do not tell it: seconds, unless that cannot be meant.
+def _worded(tables: Sequence[Table], column: int, named: bool) -> tuple[Channel | None, Finding]:
+    """Return a column of two words as 0 and 1, and what is to be told of any column of words."""
+    name, _ = label_of(tables[0], column)
+    cells = [[plain(cell, decimal_comma=False) for cell in t.text(column)] for t in tables]
+    shown = {cell.casefold(): cell for table in reversed(cells) for cell in table if cell}
+    words = sorted(shown, key=lambda word: (_state(word), word))
+    apart = sum(len(runs(table)) for table in cells) == len(words)
+    names = f"--episode {shlex.quote(name)}, if it names the episodes"
+    states = all(_state(word) < len(STATES) for word in words)
+    remedy = names if apart and len(words) > 1 and not (named or states) else ""
+    if len(words) == 2:
+        number = {word: float(i) for i, word in enumerate(words)} | {"": np.nan}
+        values = [np.array([number[cell.casefold()] for cell in table]) for table in cells]
+        what = f"'{shown[words[0]]}' is read as 0, '{shown[words[1]]}' as 1"
+        found = tuple((v, ~np.isnan(v)) for v in values)
+        finding = Finding("converted", tables[0].path, what, remedy, channel=name)
+        return Channel(column, name, "", found, binary=True), finding
+    listed = ", ".join(f"'{shown[word][:40]}'" for word in words[:MOST_WORDS])
+    more = ", …" if len(words) > MOST_WORDS else ""
+    what = f"holds words, not numbers ({listed}{more}); it is left out"
+    return None, Finding("left out", tables[0].path, what, remedy, channel=name)
 
-    Clocks count from 1970 in seconds, milliseconds, microseconds or nanoseconds: a number that
-    tells of today in one of them does in no other.
-    """
-    latest = float(np.max(stamps, where=np.isfinite(stamps), initial=0.0))
-    return next((unit for unit in (1.0, 1e-3, 1e-6) if latest * unit < LATEST_S), 1e-9)
+
+def _state(word: str) -> int:
+    return next((i for i, words in enumerate(STATES) if word in words), len(STATES))
 
 
-def _dates(cells: tuple[str, ...]) -> Float[ndarray, " T"] | None:
-    """Return dates as times [s] from the first of them; None where one is no date."""
-    try:
-        moments = [datetime.fromisoformat(cell) if cell else None for cell in cells]
-        first = next(moment for moment in moments if moment)
-        return np.array([(m - first).total_seconds() if m else np.nan for m in moments])
-    except (ValueError, TypeError):
-        # Python raises TypeError where some tell their time zone and others do not.
+def _nameless(tables: Sequence[Table], column: int) -> Finding | None:
+    """Return what is to be told of a column without a name, unless it numbers the rows."""
+    if tables[0].header[column]:
         return None
+    found = [numbers(table, column) for table in tables]
+    seen = [values[mask] for values, mask in (f for f in found if f is not None)]
+    numbered = all((np.diff(values) == 1).all() for values in seen)
+    if numbered or counts_rows(seen):
+        return None
+    what = f"column {column + 1} has no name in the first line; it is left out"
+    return Finding("left out", tables[0].path, what)
+
+
+def _own(table: Table, column: int) -> Numbers:
+    place = table.plain[column]
+    return table.numbers[:, place], table.observed[:, place]

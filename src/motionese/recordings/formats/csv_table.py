@@ -1,136 +1,205 @@
-"""A text file as columns of cells: which line is at fault, and what in a cell is a number."""
+"""A text file as a table: which line is at fault, columns of cells, and rows of plain numbers."""
 
 import csv
 import io
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import takewhile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from numpy import ndarray
 
-from motionese.errors import RecordingError
+from motionese.errors import RecordingError, SettingError
+from motionese.recordings.finding import Finding
+from motionese.recordings.formats.csv_body import read_body
+from motionese.recordings.formats.csv_cells import is_number
+from motionese.recordings.formats.csv_layout import Layout, layout, rows_of
+from motionese.recordings.formats.csv_names import checked_header
+from motionese.recordings.formats.csv_text import decoded
+from motionese.recordings.formats.numbered_columns import numbered_columns
 
-SEPARATORS = ",;\t"
-COMMENTS = ("#", "%", "sep=")
-"""What lines above a table begin with that are no rows of it, or that name its columns."""
-MISSING = ("na", "n/a", "null", "none")
-"""Words for a value that was not observed, as an empty cell is. NaN is a value."""
-TRUTH = {"true": "1", "false": "0"}
+HEAD = 1 << 20
+"""Bytes in which a table's first rows stand."""
+LINES = 200
+"""Lines by which it is known where the table is."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """The cells of a text file, without blanks around them.
+    """The rows of a text file.
 
     Attributes:
         separator: What stands between two cells; a blank for any number of blanks.
-        header: The cells of the first line.
-        columns: The cells below, by column.
+        header: The names of the columns.
+        units: Of the row of units below the names; empty where there is none.
         lines: The line of the file in which each row ends, counted from 1.
+        cells: Columns as they are written, without blanks around the cells.
+        plain: Columns that were read as numbers at once, each with its place in `numbers`.
+        named: Whether the file, or the user, names the columns.
     """
 
     path: Path
     separator: str
     header: tuple[str, ...]
-    columns: tuple[tuple[str, ...], ...]
-    lines: tuple[int, ...]
+    units: tuple[str, ...]
+    lines: Sequence[int]
+    cells: Mapping[int, tuple[str, ...]]
+    plain: Mapping[int, int] = field(default_factory=dict)
+    numbers: Float[ndarray, "T K"] = field(default_factory=lambda: np.empty((0, 0)))
+    observed: Bool[ndarray, "T K"] = field(default_factory=lambda: np.empty((0, 0), dtype=bool))
+    named: bool = True
+    findings: tuple[Finding, ...] = ()
 
     def where(self, row: int) -> str:
         """Return the file and line of a row, for messages."""
         return f"{self.path}, line {self.lines[row]}"
 
+    def text(self, column: int) -> Sequence[str]:
+        """Return a column as it is written, or as its numbers are."""
+        if column in self.cells:
+            return self.cells[column]
+        place = self.plain[column]
+        pairs = zip(self.numbers[:, place], self.observed[:, place], strict=True)
+        return [f"{value:.17g}" if seen else "" for value, seen in pairs]
 
-def read_table(path: Path) -> Table:
-    """Read a text file; `RecordingError` where it is none, or a line is wider than its header."""
-    text = _text(path)
+    def in_order(self, header: Sequence[str]) -> "Table":
+        """Return the table with its columns in another order."""
+        order = [self.header.index(name) for name in header]
+        return replace(
+            self,
+            header=tuple(header),
+            units=tuple(self.units[i] for i in order) if self.units else (),
+            cells={new: self.cells[old] for new, old in enumerate(order) if old in self.cells},
+            plain={new: self.plain[old] for new, old in enumerate(order) if old in self.plain},
+        )
+
+
+def read_table(path: Path, columns: Sequence[str] | None, is_text: Callable[[str], bool]) -> Table:
+    """Read a text file.
+
+    Args:
+        path: The file.
+        columns: Names of its columns, where it has no header.
+        is_text: Which names are those of columns that are wanted as they are written.
+
+    Raises:
+        RecordingError: No text, no table, or a line that is wider than the header.
+        SettingError: Names for columns that have some, or not as many.
+    """
+    try:
+        return _plainly(path, columns, is_text) or _carefully(path, columns)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
+
+
+def holds_table(path: Path) -> bool:
+    """Tell whether a text file begins as a table does, perhaps below some lines of words."""
+    try:
+        with path.open("rb") as file:
+            text, _ = decoded(path, file.read(HEAD))
+    except (OSError, RecordingError):
+        return False
+    return layout(_first_lines(text)).sure
+
+
+def _plainly(
+    path: Path, columns: Sequence[str] | None, is_text: Callable[[str], bool]
+) -> Table | None:
+    """Return a table whose rows are plain; None where any of them is not."""
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+        marked = 3 * head.startswith(b"\xef\xbb\xbf")
+        whole = head[marked:] if len(head) < HEAD else head[marked : head.rfind(b"\n") + 1]
+        try:
+            lines = _first_lines(whole.decode())
+        except UnicodeDecodeError:
+            return None
+        found = layout(lines)
+        if not found.sure:
+            return None
+        header, findings = _header(path, found, columns)
+        textual = [
+            i
+            for i, (name, cell) in enumerate(zip(header, found.row, strict=False))
+            if is_text(name) or (cell and not is_number(cell))
+        ]
+        file.seek(marked + sum(len(line.encode()) for line in lines[: found.body]))
+        body = read_body(file, found.separator, len(header), textual)
+    if body is None:
+        return None
+    numbers, observed, words = body
+    rest = [i for i in range(len(header)) if i not in textual]
+    return Table(
+        path,
+        found.separator,
+        header,
+        found.units,
+        range(found.body + 1, found.body + 1 + len(numbers)),
+        dict(zip(textual, words, strict=True)),
+        {column: place for place, column in enumerate(rest)},
+        numbers,
+        observed,
+        bool(found.header or columns),
+        findings,
+    )
+
+
+def _carefully(path: Path, columns: Sequence[str] | None) -> Table:
+    text, guess = decoded(path, path.read_bytes())
+    found = layout(_first_lines(text))
+    header, findings = _header(path, found, columns)
+    if guess:
+        findings = (Finding("converted", path, guess), *findings)
     lines = io.StringIO(text, newline="").readlines()
-    bare = map(str.lstrip, lines)
-    above = len(list(takewhile(lambda line: not line or line.startswith(COMMENTS), bare)))
-    separator = _separator(lines[above:])
-    rows, ends = _rows(path, [*["\n"] * above, *lines[above:]], separator)
-    if above and rows:
-        # NumPy's savetxt and ROS write the names of the columns as a comment.
-        parts = lines[above - 1].lstrip("#% ").split(None if separator == " " else separator)
-        named = [part.strip(' "\r\n') for part in parts]
-        values = [cell for cell in rows[0] if is_number(cell.replace(",", "."))]
-        if values and len(named) == len(rows[0]):
-            rows, ends = [named, *rows], [above, *ends]
+    lines[: found.body] = ["\n"] * found.body
+    try:
+        rows, ends = rows_of(lines, found.separator, len(header))
+    except csv.Error as error:
+        raise RecordingError(f"{path}, {error}") from error
     # Spreadsheets end a table with lines of nothing but separators.
     while rows and not any(rows[-1]):
         del rows[-1], ends[-1]
-    if len(rows) < 2:
+    if not rows:
         raise RecordingError(
-            f"{path}: {'holds no rows below its header' if rows else 'the file is empty'}"
+            f"{path}: {'holds no rows below its header' if any(header) else 'the file is empty'}"
         )
-    if len(rows[-1]) < len(rows[0]) and not text.endswith(("\n", "\r")):
+    if len(rows[-1]) < len(header) and not text.endswith(("\n", "\r")):
         raise RecordingError(
             f"{path}, line {ends[-1]}: the file is cut short inside a row "
-            f"({len(rows[-1])} cells, the header has {len(rows[0])})"
+            f"({len(rows[-1])} cells, the header has {len(header)})"
         )
-    header, *below = (
-        _fitted(path, cells, line, len(rows[0])) for cells, line in zip(rows, ends, strict=True)
+    fitted = [_fitted(path, r, line, len(header)) for r, line in zip(rows, ends, strict=True)]
+    cells = dict(enumerate(zip(*fitted, strict=True)))
+    named = bool(found.header or columns)
+    return Table(
+        path, found.separator, header, found.units, ends, cells, named=named, findings=findings
     )
-    return Table(path, separator, tuple(header), tuple(zip(*below, strict=True)), tuple(ends[1:]))
 
 
-def floats(cells: Sequence[str]) -> Float[ndarray, " T"]:
-    """Return cells as numbers, NaN where one is empty; `ValueError` where one is text."""
-    return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
+def _header(
+    path: Path, found: Layout, columns: Sequence[str] | None
+) -> tuple[tuple[str, ...], tuple[Finding, ...]]:
+    """Return the names of a table's columns, and what was found above its rows."""
+    width, findings = len(found.header or found.row), []
+    if found.above:
+        first, more = found.above[0].strip()[:40], len(found.above) - 1
+        what = f"the line '{first}'{f' and {more} more' if more else ''} above the table"
+        findings.append(Finding("left out", path, f"{what}: words, not read"))
+    if found.header:
+        if columns is not None:
+            raise SettingError(
+                f"{path}: its columns have names ({', '.join(found.header[:4])}, …); "
+                "--columns names those of a table without a header"
+            )
+        return checked_header(path, found.header), tuple(findings)
+    names, told = numbered_columns(path, width, columns)
+    return checked_header(path, names), (*findings, *told)
 
 
-def is_number(cell: str) -> bool:
-    """Tell whether a cell holds a number."""
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
-
-
-def plain(cell: str, *, decimal_comma: bool) -> str:
-    """Return a cell as Python writes its number; empty where nothing was observed."""
-    folded = cell.casefold()
-    if folded in MISSING:
-        return ""
-    return TRUTH.get(folded, cell.replace(",", ".") if decimal_comma else cell)
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise RecordingError(
-            f"{path}: not a text file in UTF-8 (byte {error.start}); save it as UTF-8"
-        ) from error
-
-
-def _separator(lines: Sequence[str]) -> str:
-    first = lines[0] if lines else ""
-    if any(mark in first for mark in SEPARATORS):
-        return max(SEPARATORS, key=first.count)
-    rows = [line for line in lines[:3] if line.strip()]
-    # A name may hold blanks; a number does not.
-    return " " if len(rows) > 1 and len(rows[1].split()) > 1 else ","
-
-
-def _rows(path: Path, lines: Sequence[str], separator: str) -> tuple[list[list[str]], list[int]]:
-    rows: list[list[str]] = []
-    ends: list[int] = []
-    reader = csv.reader(lines, delimiter=separator, skipinitialspace=separator == " ", strict=True)
-    try:
-        for row in reader:
-            is_comment = row and rows and len(row) != len(rows[0]) and row[0].startswith(COMMENTS)
-            if row and not is_comment:
-                rows.append([_one_line(cell) for cell in row])
-                ends.append(reader.line_num)
-    except csv.Error as error:
-        raise RecordingError(f"{path}, line {reader.line_num}: not a csv file: {error}") from error
-    return rows, ends
+def _first_lines(text: str) -> list[str]:
+    return list(islice(io.StringIO(text, newline=""), LINES))
 
 
 def _fitted(path: Path, cells: list[str], line: int, width: int) -> list[str]:
@@ -138,9 +207,3 @@ def _fitted(path: Path, cells: list[str], line: int, width: int) -> list[str]:
     if any(cells[width:]):
         raise RecordingError(f"{path}, line {line}: {len(cells)} cells, the header has {width}")
     return cells[:width] + [""] * (width - len(cells))
-
-
-def _one_line(cell: str) -> str:
-    """Return a cell without blanks around it, and without the line breaks of spreadsheets."""
-    text = cell.strip()
-    return " ".join(text.split()) if "\n" in text or "\r" in text else text

@@ -3,16 +3,18 @@
 import io
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
-from motionese.errors import RecordingError
+from motionese.errors import RecordingError, SettingError
 from motionese.recordings.formats.conventions import UNREADABLE, fault, why
+from motionese.recordings.formats.npz_flat import read_flat
 from motionese.recordings.formats.writing import write_file
+from motionese.recordings.nature import judged
 from motionese.recordings.recording import Episode, Recording
 from motionese.recordings.told_rate import as_timed
 
@@ -54,20 +56,22 @@ class Metadata(BaseModel):
         return self
 
 
-def read(path: Path) -> Recording:
-    """Read a file that `write` wrote."""
+def read(path: Path, columns: Sequence[str] | None = None) -> Recording:
+    """Read a file that `write` wrote, or any archive of arrays whose `columns` may be named."""
     try:
         # NumPy leaves open what it opened itself and could not read.
         with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+            if METADATA not in file.files:
+                return judged(read_flat(path, file, columns))
+            if columns is not None:
+                raise SettingError(f"{path}: its channels have names; --columns is for bare arrays")
             metadata = _metadata(path, file)
             episodes = tuple(
                 _episode(path, file, i, name, len(metadata.channels))
                 for i, name in enumerate(metadata.episodes)
             )
     except UNREADABLE as error:
-        raise RecordingError(
-            f"{path}: not a whole file of motions that motionese wrote: {why(error)}"
-        ) from error
+        raise RecordingError(f"{path}: not a whole archive of arrays: {why(error)}") from error
     told = metadata.model_dump(include={*SHARED})
     return as_timed(Recording(source=path, episodes=episodes, **told))
 

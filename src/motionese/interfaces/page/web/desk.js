@@ -72,8 +72,9 @@ export function tidy(now) {
     stop: Boolean(session.busy),
   };
   for (const [id, on] of Object.entries(enabled)) part(id).disabled = !on;
-  part("imitate").classList.toggle("next", now.step === "judged");
-  part("learn").classList.toggle("next", now.step === "performed");
+  const { advice } = { judged: now.verdict, performed: now.performed }[now.step] ?? {};
+  part("imitate").classList.toggle("next", advice === "imitate");
+  part("learn").classList.toggle("next", advice === "learn");
   part("grow").classList.toggle("next", Boolean(session.suggest));
   part("progress").classList.toggle("on", LONG.includes(session.busy));
   for (const line of part("legend").children) line.hidden = !now.lines[line.className];

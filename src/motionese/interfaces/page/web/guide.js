@@ -43,17 +43,17 @@ export function guide(now) {
   if (now.keyed === "planning" || (now.keyed && !step)) return KEYS[now.keyed];
   if (step === "judged") return judged(now.verdict);
   if (step === "performed") {
-    return `It missed by ${cm(performed.error_cm)}. Press Learn this to let it practise.`;
+    const learn = performed.advice === "learn" ? " Press Learn this to let it practise." : "";
+    return `${performed.sentence}${learn || ` ${invitation(next, false, true)}`}`;
   }
   if (suggest) return suggest;
   if (step === "learned") return `${outcome(learned)} ${invitation(next, false, true)}`;
   return invitation(next, now.first);
 }
 
-function judged({ sentence, motion, confidence }) {
-  const isSure = motion && confidence > 0.5;
-  return `“${sentence}” ${isSure ? "Press Imitate to see it try." : "Press Learn this to teach it."}`;
-}
+const ADVICE = { imitate: "Press Imitate to see it try.", learn: "Press Learn this to teach it." };
+
+const judged = ({ sentence, advice }) => `“${sentence}” ${ADVICE[advice]}`;
 
 function outcome({ before_cm: before, after_cm: after }) {
   if (after < before) return `Its error fell from ${before.toFixed(1)} to ${cm(after)}.`;

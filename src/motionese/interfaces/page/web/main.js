@@ -13,7 +13,7 @@ import { Pace } from "./playing.js";
 import { Showing } from "./showing.js";
 import { Stage } from "./stage.js";
 import { primitivesOf, read, takeTask, task } from "./task.js";
-import { clearVerdict, showUnderstanding, showVerdict } from "./verdict.js";
+import { clearVerdict, showResult, showUnderstanding, showVerdict } from "./verdict.js";
 import { View } from "./view.js";
 
 const now = {
@@ -113,6 +113,7 @@ const heard = {
   performed(message) {
     now.performed = message;
     now.step = "performed";
+    showResult(message);
     view.mark({ recognised: null, next: null, done: message.path });
     say(part("attempt"), `Attempt ${message.attempt}: ${message.error_cm.toFixed(1)} cm off`);
   },

@@ -70,12 +70,14 @@ export function colourAt(name) {
   return index < 0 ? undefined : COLOURS[index % COLOURS.length];
 }
 
-/** Return a motion as elements: a badge, a sign a stroke, and its name for those who cannot see. */
+/** Return a motion as elements: a badge, a sign a stroke, and its name for those who cannot see.
+    A motion that is no sequence of the task is its name. */
 export function pictured(motion) {
   const { start, signs } = read(motion);
+  if (!start) return [made("span", "named", motion)];
   const parts = [made("span", "away", `${start} ${signs.join("")}`.trim())];
-  if (start) parts.push(made("span", "corner", start, { "aria-hidden": "true" }));
-  if (start && !signs.length) parts.push(made("span", "nothing", "?", { "aria-hidden": "true" }));
+  parts.push(made("span", "corner", start, { "aria-hidden": "true" }));
+  if (!signs.length) parts.push(made("span", "nothing", "?", { "aria-hidden": "true" }));
   return [...parts, ...signs.map(drawn)];
 }
 

@@ -1,48 +1,62 @@
-// What the robot understands: large arrows, how sure it is, and how far its path is off.
+// What was seen, as large arrows and likely motions, and whether the robot says that it can do it.
 
 import { inWords, pictured, read } from "./task.js";
 import { made, part, say } from "./dom.js";
 
-function show(motion, confidence, error) {
-  const known = read(motion).start;
-  part("verdict-arrows").replaceChildren(
-    ...(known ? pictured(motion) : [made("span", "nothing", "nothing yet")]),
-  );
-  const sure = confidence === null ? "–" : `${Math.round(100 * confidence)} %`;
-  say(part("confidence-value"), sure);
-  part("confidence").value = confidence ?? 0;
-  part("verdict-error").replaceChildren(
-    ...(error === null ? ["–"] : [error.toFixed(1), made("small", "", " cm")]),
-  );
+/** Show what was seen {motion, share}, the likeliest first; it is named `motion` from now on. */
+function showSeen(seen, motion = seen[0]?.motion ?? "") {
+  const shown = motion ? pictured(motion) : [made("span", "nothing", "nothing yet")];
+  part("verdict-arrows").replaceChildren(...shown);
+  part("seen").replaceChildren(...seen.map(bar));
 }
 
-/** Show what is understood so far; nothing is spoken while a person draws. */
-export function showUnderstanding({ arrows, confidence }) {
+function bar({ motion, share }) {
+  const measure = { min: 0, max: 1, value: share, "aria-label": motion };
+  return made("li", "", [
+    made("span", "", motion, { "aria-hidden": "true" }),
+    made("meter", "", [], measure),
+  ]);
+}
+
+/** Show whether the robot can do it, and what that is known by. */
+function showClaim(answer, why) {
+  say(part("claim"), answer);
+  say(part("claim-why"), why);
+}
+
+/** Show what was seen so far; nothing is spoken while a person draws. */
+export function showUnderstanding({ seen }) {
   part("verdict").classList.add("tentative");
-  say(part("verdict-label"), "So far it understands");
-  show(arrows, confidence, null);
+  say(part("verdict-label"), "So far the robot sees");
+  showSeen(seen);
+  showClaim("–", "");
 }
 
 /** Show a verdict, and speak it. */
-export function showVerdict({ motion, confidence, error_cm: error, alternatives }) {
+export function showVerdict({ motion, seen, sentence, claim }) {
   part("verdict").classList.remove("tentative");
-  say(part("verdict-label"), "The robot understands");
-  show(motion, confidence, error);
-  const other = (alternatives ?? []).find((one) => one.motion !== motion && one.confidence >= 0.05);
-  part("alternative").replaceChildren(...(other ? ["or ", ...pictured(other.motion)] : []));
-  say(
-    part("verdict-spoken"),
-    read(motion).start
-      ? `Understood: ${inWords(motion)}; confidence ${Math.round(100 * confidence)} percent, off by ${error.toFixed(1)} centimetres.`
-      : "Not understood.",
-  );
+  say(part("verdict-label"), "The robot saw");
+  showSeen(seen, motion);
+  const { made: claims, foretold_cm: foretold, expected_cm: expected } = claim;
+  const expects = expected === null ? "" : `; expects to miss by ${cm(expected)}`;
+  showClaim(claims ? "It says yes" : "Not yet", `Foretold the end to ${cm(foretold)}${expects}`);
+  say(part("verdict-spoken"), read(motion).start ? `${inWords(motion)}. ${sentence}` : sentence);
+}
+
+/** Show what a try has come to. */
+export function showResult({ good, error_cm: error, pushes }) {
+  const done = pushes.filter((push) => push.made).length;
+  const pressed = pushes.length ? `, pressed ${done} of ${pushes.length}` : "";
+  showClaim(good ? "It did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
 }
 
 /** Show that nothing is understood yet. */
 export function clearVerdict() {
   part("verdict").classList.remove("tentative");
-  say(part("verdict-label"), "The robot understands");
-  part("alternative").replaceChildren();
+  say(part("verdict-label"), "The robot saw");
   say(part("verdict-spoken"), "");
-  show("", null, null);
+  showSeen([]);
+  showClaim("–", "");
 }
+
+const cm = (value) => `${value.toFixed(1)} cm`;
