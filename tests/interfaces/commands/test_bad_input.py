@@ -228,7 +228,15 @@ OPTIONS = {
     "online": ("--observed", "--window", "--ahead", "--log"),
     "generate": ("--like", "--start", "--steps", "--duration-scale", "--blend"),
     "inspect": ("--channels", "--exclude", "--rate", "--format", "--episode", "--time"),
-    "measure": ("--hand", "--still", "--pause", "--window", "--against", "--channels", "--unit"),
+    "measure": (
+        "--hand",
+        "--still",
+        "--shortest-pause",
+        "--window",
+        "--against",
+        "--channels",
+        "--unit",
+    ),
 }
 
 

@@ -140,7 +140,7 @@ def test_units_of_one_quantity_are_brought_together(demos):
 
 
 def test_the_threshold_and_the_pauses_are_as_they_are_set(demos):
-    output = measured("demos.csv", "--still", "0.02", "--pause", "0.7", "--window", "0.5")
+    output = measured("demos.csv", "--still", "0.02", "--shortest-pause", "0.7", "--window", "0.5")
 
     assert "smoothed over 0.5 s (25 rows); still below 0.02 m/s; a pause lasts 0.7 s" in output
     assert rows(output, "pausing")[2][1:] == ["0", "–", "0", "–", "–", "–", "0.02"]
@@ -230,7 +230,10 @@ WRONG = {
     "force": (["force.csv"], "channel 'a' is in [N], neither a position nor an angle"),
     "units": (["demos.csv", "--hand", "x", "y", "--unit", "y=px"], "is in [px], which is no [m]"),
     "still": (["demos.csv", "--still", "0"], "still = 0.0: it must be finite and above 0"),
-    "pause": (["demos.csv", "--pause", "-1"], "pause_s = -1.0: it must be finite and above 0"),
+    "pause": (
+        ["demos.csv", "--shortest-pause", "-1"],
+        "pause_s = -1.0: it must be finite and above 0",
+    ),
     "window": (["demos.csv", "--window", "nan"], "window_s = nan: it must be finite and above 0"),
     "no rate": (["rateless.csv"], "tells neither times nor a rate"),
     "table": (["demos.csv", "--out", "table.txt"], "--out table.txt: its name must end in .csv"),

@@ -80,7 +80,7 @@ def measure(
         float | None,
         Option(metavar="SPEED", help="Below it the hand is still; else 5 % of its peak speed."),
     ] = None,
-    pause: Annotated[
+    shortest_pause: Annotated[
         float, Option(metavar="SECONDS", help="The shortest stillness that is a pause.")
     ] = 0.15,
     window: Annotated[
@@ -111,7 +111,7 @@ def measure(
             console,
             [source, *([against] if against else [])],
             separated(hand),
-            Manner(still, pause, window),
+            Manner(still, shortest_pause, window),
             out=out,
             plot=plot,
             reading=as_read(**reading),
