@@ -40,7 +40,10 @@ BESIDE_THE_CODE = {
 }
 """Pages whose text stands beside the code, and the pages of this site that include it."""
 
-ROOMS = ("learning", "network", "channels", "interfaces.estimator", "interfaces.onnx_export")
+ROOMS = (
+    *("learning", "network", "kinematics", "channels"),
+    *("interfaces.estimator", "interfaces.onnx_export"),
+)
 """Where the package's own public names are documented."""
 
 

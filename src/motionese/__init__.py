@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from motionese.channels import Channel, Channels
     from motionese.interfaces.onnx_export import export_onnx
+    from motionese.kinematics import Measures, measure
     from motionese.learning import (
         Fit,
         Motions,
@@ -32,6 +33,7 @@ __all__ = [
     "Channels",
     "Fit",
     "Level",
+    "Measures",
     "Motions",
     "Progress",
     "Recognition",
@@ -42,6 +44,7 @@ __all__ = [
     "generate_sequence",
     "grow",
     "load",
+    "measure",
     "placed",
     "read_for",
     "recognise",
@@ -57,6 +60,7 @@ _ROOMS = {
     "channels": ("Channel", "Channels"),
     "interfaces.onnx_export": ("export_onnx",),
     "interfaces.estimator": ("MTRNNImitator",),
+    "kinematics": ("Measures", "measure"),
     "network": ("MTRNN", "Level", "grow"),
 }
 """Where public names are written if not in `learning`. `MTRNNImitator` needs an extra's package and

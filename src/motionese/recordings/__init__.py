@@ -4,11 +4,11 @@ from motionese.recordings.binary import with_binary
 from motionese.recordings.choice import MARGIN, Choice, choose, chosen
 from motionese.recordings.examination import examined
 from motionese.recordings.finding import Finding, refuse_any
-from motionese.recordings.preparation import finished, prepare, range_of
+from motionese.recordings.preparation import evened, finished, prepare, range_of
 from motionese.recordings.recording import Episode, Recording
 from motionese.recordings.registry import FORMATS, OPTIONS, read, write
 from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
-from motionese.recordings.units import in_units
+from motionese.recordings.units import factor, in_units
 
 __all__ = [
     "FORMATS",
@@ -23,7 +23,9 @@ __all__ = [
     "Survey",
     "choose",
     "chosen",
+    "evened",
     "examined",
+    "factor",
     "finished",
     "in_units",
     "prepare",

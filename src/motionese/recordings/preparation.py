@@ -36,14 +36,19 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
 
 def finished(recording: Recording, choice: Choice) -> Recording:
     """Do what `prepare` does with a recording that was chosen from and examined already."""
-    recording = finite(long_enough(recording), nan_is_gap=choice.nan == "gap")
-    recording = at_one_rate(recording, choice)
+    recording = evened(recording, choice)
     if choice.trim > 0:
         recording = trimmed(recording, choice.trim, all_ranges(recording, choice))
     recording = held(long_enough(recording))
     if choice.strict:
         refuse_any(recording.findings)
     return replace(recording, ranges=all_ranges(recording, choice))
+
+
+def evened(recording: Recording, choice: Choice) -> Recording:
+    """Do what `prepare` does but for ranges, which whoever does not learn has no need of."""
+    recording = finite(long_enough(recording), nan_is_gap=choice.nan == "gap")
+    return at_one_rate(recording, choice)
 
 
 def long_enough(recording: Recording) -> Recording:

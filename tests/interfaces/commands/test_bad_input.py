@@ -21,6 +21,7 @@ READING = {
     "recognise": ("recognise", "arm.safetensors", "{}", "--initial", "new.json"),
     "online": ("recognise", "arm.safetensors", "{}", "--out", "new.csv", "--online", "--window=4"),
     "export": ("export", "{}", "--out", "new.csv"),
+    "measure": ("measure", "{}", "--out", "new.csv"),
 }
 """Every command that reads recordings, with a place for the recording."""
 MODELS = {
@@ -90,6 +91,8 @@ def test_recordings_that_cannot_be_used_are_told(arm, command):
             continue  # These are shown.
         if command in ("recognise", "online") and name == "flat.csv":
             continue  # A model has ranges of its own.
+        if command == "measure" and name == "flat.csv":
+            continue  # What stays where it is has no range to be learned in, but can be measured.
         assert refused(*line(READING[command], name)).startswith(told)
 
 
@@ -167,7 +170,7 @@ def tried(*arguments):
 
 
 @pytest.mark.usefixtures("unchecked")
-@pytest.mark.parametrize("command", ["import", "inspect", "train", "recognise", "online", "export"])
+@pytest.mark.parametrize("command", READING)
 @settings(max_examples=6)
 @given(data=st.data())
 def test_recordings_of_anything(arm, command, data):
@@ -225,6 +228,15 @@ OPTIONS = {
     "online": ("--observed", "--window", "--ahead", "--log"),
     "generate": ("--like", "--start", "--steps", "--duration-scale", "--blend"),
     "inspect": ("--channels", "--exclude", "--rate", "--format", "--episode", "--time"),
+    "measure": (
+        "--hand",
+        "--still",
+        "--shortest-pause",
+        "--window",
+        "--against",
+        "--channels",
+        "--unit",
+    ),
 }
 
 
@@ -252,7 +264,9 @@ def damaged(whole: bytes, data) -> bytes:
     return bytes(content) if content else data.draw(st.binary(max_size=100))
 
 
-@pytest.mark.parametrize("command", ["import", "train", "recognise", "online", "generate"])
+@pytest.mark.parametrize(
+    "command", ["import", "train", "recognise", "online", "generate", "measure"]
+)
 def test_a_full_disk_is_told(arm, monkeypatch, command):
     def full(_):
         raise OSError(errno.ENOSPC, "No space left on device")

@@ -9,6 +9,8 @@ READING = {
     "import": ("import", "SOURCE", "--out", "OUT"),
     "export": ("export", "SOURCE", "--out", "OUT"),
     "recognise": ("recognise", "arm.safetensors", "SOURCE", "--out", "OUT"),
+    "measure": ("measure", "SOURCE", "--out", "OUT"),
+    "against": ("measure", "other.csv", "--against", "SOURCE", "--out", "OUT"),
     "online": ("recognise", "arm.safetensors", "SOURCE", "--online", "--out", "OUT"),
 }
 
@@ -20,6 +22,7 @@ def typed_for(command, source, out):
 def spellings():
     """Names of demos.csv: its own, by another way, and links to it."""
     Path("sub").mkdir()
+    write_csv("other.csv")
     Path("link.csv").symlink_to("demos.csv")
     Path("hard.csv").hardlink_to("demos.csv")
     return (

@@ -55,6 +55,7 @@ def test_a_plain_installation_has_all_commands_for_csv_npz_and_eipl(arm):
         [
             "import demos.csv --out new.npz",
             "inspect new.npz",
+            "measure demos.csv --against new.npz --plot measured.svg",
             "export new.npz --out eipl --to eipl",
             "import eipl --rate 20 --out again.csv",
         ],
@@ -97,6 +98,7 @@ NEEDED = {
         "recognise arm.safetensors demos.csv --online --window 10 --log rerun",
         *("rerun", "rerun-sdk"),
     ),
+    "measure": ("measure demos.csv", "scipy", "scipy"),
     "experiment": ("reproduce", "mujoco", "mujoco-core"),
     "many runs": ("reproduce", "dask", "dask"),
     "report": ("report runs/default", "pandas", "pandas"),
@@ -106,7 +108,7 @@ NEEDED = {
 }
 """The command, the module that is not there, the package that would bring it."""
 EXTRA = {"onnxruntime": "onnx", "read hdf5": "hdf5", "page": "web", "row by row": "rerun"}
-EXTRA |= dict.fromkeys(("many runs", "report", "presets"), "experiment")
+EXTRA |= dict.fromkeys(("measure", "many runs", "report", "presets"), "experiment")
 
 
 def run_here_without(module, line, monkeypatch):

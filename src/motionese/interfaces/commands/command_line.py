@@ -31,6 +31,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
     "Your own robot": {
         "import": recording_commands.import_recordings,
         "inspect": recording_commands.inspect,
+        "measure": recording_commands.measure,
         "export": recording_commands.export,
         "train": model_commands.train,
         "recognise": model_commands.recognise,
@@ -40,7 +41,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
 SEVERAL = (
     *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
     *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary", "--topic"),
-    *("--observed", "--log", "--like", "--start"),
+    *("--observed", "--log", "--like", "--start", "--hand"),
 )
 """Options that may be followed by several values."""
 

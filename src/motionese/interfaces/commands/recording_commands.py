@@ -1,13 +1,21 @@
-"""Commands for recordings: import, inspect, export."""
+"""Commands for recordings: import, inspect, measure, export."""
 # ruff: noqa: PLC0415
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any
 
 from typer import Argument, Option
 
+from motionese.errors import needs
 from motionese.interfaces.commands.exit_status import plainly
-from motionese.interfaces.commands.recording_options import FORMATS, as_read, with_recording_options
+from motionese.interfaces.commands.recording_options import (
+    FORMATS,
+    Texts,
+    as_read,
+    separated,
+    with_recording_options,
+)
 
 Source = Annotated[Path, Argument(metavar="SOURCE", help="A file or folder of recordings.")]
 
@@ -50,6 +58,63 @@ def inspect(
 
         inspect_recordings(
             console, source, plot or Path(f"{source.resolve().stem}.svg"), as_read(**reading)
+        )
+
+
+@with_recording_options("trim", "range", "margin", "binary")
+def measure(
+    source: Annotated[Path, Argument(metavar="DATA", help="Recordings, in any format.")],
+    reading: dict[str, Any],
+    hand: Annotated[
+        Texts,
+        Option(
+            metavar="X Y [Z]",
+            help="Channels that are the hand's position; else found by their units or names; "
+            "where there is none, the channels are joints.",
+        ),
+    ] = None,
+    against: Annotated[
+        Path | None, Option(metavar="DATA", help="Recordings to compare these with.")
+    ] = None,
+    still: Annotated[
+        float | None,
+        Option(metavar="SPEED", help="Below it the hand is still; else 5 % of its peak speed."),
+    ] = None,
+    shortest_pause: Annotated[
+        float, Option(metavar="SECONDS", help="The shortest stillness that is a pause.")
+    ] = 0.15,
+    window: Annotated[
+        float, Option(metavar="SECONDS", help="Over which positions are smoothed; at least 7 rows.")
+    ] = 0.25,
+    out: Annotated[
+        Path | None, Option(metavar="TABLE.csv", help="Write the measures, a line an episode.")
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        Option(
+            metavar="FILE.svg|.png",
+            help="Draw motions with their pauses; with --against both groups' measures.",
+        ),
+    ] = None,
+) -> None:
+    """Measure how motions are shown: speed, pauses, pace, roundness, range, repetitiveness.
+
+    DATA holds positions of a hand, 2-D or 3-D, or joint angles. An episode is one observation.
+    """
+    with plainly("stopped; nothing was written", soft_wrap=False) as console:
+        if find_spec("scipy") is None:
+            raise needs("scipy", "experiment", "motionese measure")
+        from motionese.interfaces.commands.measure import measure_recordings
+        from motionese.interfaces.commands.measured_group import Manner
+
+        measure_recordings(
+            console,
+            [source, *([against] if against else [])],
+            separated(hand),
+            Manner(still, shortest_pause, window),
+            out=out,
+            plot=plot,
+            reading=as_read(**reading),
         )
 
 
