@@ -19,10 +19,12 @@ from motionese.recordings.series import Series
 
 AROUND = 4
 """Steps on either side with which a step is compared."""
-FASTER_AROUND, FASTER_ALL = 8.0, 2.5
+FASTER_AROUND, FASTER_ALL = 8.0, 4.5
 """How many times as fast a leap is at least as the steps around it, and as all others."""
 USUAL_LOW, USUAL_HIGH = 0.05, 0.95
 """Between these quantiles of its values lies a channel's usual range."""
+LOST_ROWS = 40.0
+"""How many rows may have been lost within one step of an arm that moves on."""
 WIDE = 0.2
 """Share of its usual range that a leap crosses at least."""
 STILL = 0.1
@@ -114,11 +116,15 @@ def _velocities(series: Series) -> Float[ndarray, " _"]:
 def _calm(velocities: Float[ndarray, " N"]) -> Bool[ndarray, " N"]:
     """Return which steps are not much faster than those around them in the same direction.
 
-    The way back of a spike goes in the other one.
+    The way back of a spike goes in the other one. A step between two that go on in its direction
+    is one in which rows were lost: the arm was on its way.
     """
     windows = np.lib.stride_tricks.sliding_window_view(np.pad(velocities, AROUND), 2 * AROUND + 1)
     neighbours = np.delete(windows, AROUND, axis=1) * np.sign(velocities)[:, None]
-    return np.asarray(np.abs(velocities) <= FASTER_AROUND * neighbours.max(axis=1).clip(min=0))
+    slowest = neighbours[:, AROUND - 1 : AROUND + 1].min(axis=1)
+    speeds = np.abs(velocities)
+    calm = speeds <= FASTER_AROUND * neighbours.max(axis=1).clip(min=0)
+    return np.asarray(calm | (speeds <= LOST_ROWS * slowest))
 
 
 def usual_width(series: Sequence[Series]) -> float:
