@@ -1,15 +1,17 @@
 """A teaching session: what a person does with the robot, and what becomes of both."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
+import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.caregiver import Demonstration, segmented, sequence_in
+from motionese.errors import MotioneseError, TaskError
 from motionese.imitation import (
     Learner,
-    Performance,
     Scene,
     Settled,
     Watched,
@@ -18,13 +20,23 @@ from motionese.imitation import (
     path_error_cm,
     watch,
 )
-from motionese.teaching.notebook import Entry, Learning, Notebook, Source
+from motionese.teaching.lesson import Lesson, kept_practice
+from motionese.teaching.notebook import Change, Entry, Learning, Notebook, Source
+from motionese.teaching.outcome import pressed
 from motionese.teaching.practice import Report, practised
 from motionese.teaching.recogniser import Interpretation, Recogniser, start_of
+from motionese.teaching.trial import Trial
 from motionese.teaching.verdict import Verdict, verdict_on
 
 PRACTICE = 5
 """Imitation loops of one learning: imitate, and train on what the own body did, so many times."""
+
+Tried = Callable[[Trial], None]
+"""Called with every try of a lesson, as it comes."""
+
+
+class GrowthError(MotioneseError):
+    """There is nothing yet that a slow level could learn from."""
 
 
 @dataclass(frozen=True)
@@ -35,24 +47,6 @@ class Observation:
     watched: Watched
     interpretation: Interpretation
     verdict: Verdict
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A performance of what was shown, the initial state it began from, and its error [cm]."""
-
-    performance: Performance
-    state: Float[ndarray, " N"]
-    error_cm: float
-
-
-@dataclass(frozen=True)
-class Change:
-    """Errors [cm] of an imitation before and after the network changed."""
-
-    motion: str
-    before_cm: float
-    after_cm: float
 
 
 @dataclass(frozen=True)
@@ -117,8 +111,7 @@ class Teaching:
         learned = self.notebook.learned
         grown = [i for i, each in enumerate(learned) if not each.entry]
         since = learned[grown[-1] + 1 if grown else 0 :]
-        errors = [each.error_cm for each in since if each.error_cm is not None]
-        return self.can_grow and Settled().by(errors)
+        return self.can_grow and Settled().by([each.changes[0].after_cm for each in since])
 
     def watch(self, demonstration: Demonstration) -> Watched:
         """Let the robot watch a demonstration."""
@@ -138,10 +131,7 @@ class Teaching:
         """
         task, notebook = self.scene.task, self.notebook
         demonstration = segmented(path, sequence_in(path, task), task)
-        watched = self.watch(demonstration)
-        interpretation = self.recogniser.at_the_end(watched)
-        known = {e.motion for e in self.learner.experiences}
-        verdict = verdict_on(watched.path, interpretation.path, task, known)
+        watched, interpretation, verdict = self._understood(demonstration)
         sequence = verdict.shown or verdict.recognised
         name = sequence.name if sequence else f"{start_of(path, task).start} ?"
         entry = Entry(notebook.next, name, source, path if drawn is None else drawn, demonstration)
@@ -150,44 +140,68 @@ class Teaching:
         self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return observed
 
+    def look_back(self, number: int) -> Observation | None:
+        """Watch an entry of the notebook again: it is what is imitated and learned next."""
+        entry = self.notebook.entry(number)
+        if entry is None:
+            return None
+        observed = Observation(entry, *self._understood(entry.demonstration))
+        self.standing = replace(self.standing, observed=observed)
+        return observed
+
     def imitate(self) -> Trial:
         """Perform what was shown last, and note the error."""
         observed = self._observed()
         trial = self._trial(observed.watched, observed.interpretation)
-        entry = self.notebook.entry(observed.entry.number) or observed.entry
-        entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
+        entry = (self.notebook.entry(observed.entry.number) or observed.entry).with_trial(trial)
         observed = replace(observed, entry=entry)
         notebook = self.notebook.with_entry(entry)
         self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return trial
 
-    def learn(self, report: Report) -> Change:
+    def learn(self, report: Report, tried: Tried = lambda trial: None) -> Lesson:
         """Learn what was shown last by imitating it, as in the experiment's loop, a few times.
 
-        The network of the practice after which the imitation was best is kept: one motion alone
-        is little to learn from, and a further practice may lead away again. It is then what the
-        robot does last, and what the notebook ends with.
+        Which network is kept is said in `lesson`; it is what the notebook ends with.
         """
         began, entry, loop = self.standing.number, self._observed().entry, self._last_loop()
-        copied = self.scene.settings.imitation.efference_copy
-        before = trial = self.imitate()
-        outcomes: list[tuple[float, Standing]] = []
-        for practice in range(PRACTICE):
-            loop += 1
-            values = trial.performance.experience(copied)
-            learner = self.learner.experiencing(
-                loop, entry.motion, values, trial.state, self.learner.begins_with(entry.motion)
-            )
-            self._become(practised(self.scene, learner, loop, report, (practice, PRACTICE)))
-            self._look_again()
+        others = {m: shown for m, shown in self._taught().items() if m != entry.motion}
+        outcomes: list[tuple[Trial, Standing]] = []
+        for practice in range(PRACTICE + 1):
+            if practice:
+                loop += 1
+                self._practise(outcomes[-1][0], loop, report, practice)
             trial = self.imitate()
-            outcomes.append((trial.error_cm, self.standing))
-        error, best = min(outcomes, key=lambda each: each[0])
-        self.return_to(replace(best, notebook=self.notebook))
-        if error < trial.error_cm:
-            self.imitate()
-        self._note(Learning(entry.number, loop, began, error))
-        return Change(entry.motion, before.error_cm, error)
+            tried(trial)
+            outcomes.append((trial, self.standing))
+        errors = tuple(trial.error_cm for trial, _ in outcomes)
+        measured: dict[int, dict[str, float]] = {}
+
+        def overall(practices: int) -> float:
+            self._return_with_notebook(outcomes[practices][1])
+            measured[practices] = {m: self._error_of(shown) for m, shown in others.items()}
+            return float(np.mean([errors[practices], *measured[practices].values()]))
+
+        kept = kept_practice(errors, overall)
+        self._return_with_notebook(outcomes[kept][1])
+        if kept < PRACTICE:
+            trial = self.imitate()
+        taught = Change(entry.motion, errors[0], errors[kept])
+        changes = (taught, *(Change(m, measured[0][m], measured[kept][m]) for m in others))
+        self._note(Learning(entry.number, loop, began, kept, changes))
+        done, task = trial.performance, self.scene.task
+        outcome = pressed(done, task, sequence_in(entry.demonstration.path, task))
+        return Lesson(entry.number, errors, kept, changes, outcome)
+
+    def _practise(self, trial: Trial, loop: int, report: Report, practice: int) -> None:
+        """Train on what the own body did in a try, and look at what was shown again."""
+        motion = self._observed().entry.motion
+        values = trial.performance.experience(self.scene.settings.imitation.efference_copy)
+        learner = self.learner.experiencing(
+            loop, motion, values, trial.state, self.learner.begins_with(motion)
+        )
+        self._become(practised(self.scene, learner, loop, report, (practice - 1, PRACTICE)))
+        self._look_again()
 
     def forget(self, number: int, kept: Callable[[int], Learner]) -> str:
         """Take an entry out of the notebook, and what was learned of it back.
@@ -227,20 +241,27 @@ class Teaching:
         )
 
     def grow(self, report: Report) -> list[Change]:
-        """Open the next level, let it learn with the others, and compare the same imitations."""
-        entries, began, loop = self.notebook.latest(), self.standing.number, self._last_loop()
-        before = [self._error_of(entry) for entry in entries]
+        """Open the next level, let it learn with the others, and compare the same imitations.
+
+        Raises:
+            GrowthError: The robot was taught nothing yet.
+        """
+        known, began, loop = self._taught(), self.standing.number, self._last_loop()
+        if not known:
+            raise GrowthError(
+                "First show me a motion and press Learn this: a slow level grows on what I have "
+                "practised."
+            )
+        before = [self._error_of(shown) for shown in known.values()]
         # The network's own key, as in the experiment: see `experiment.run`.
         key = key_for(self.scene.seed, "network")
         learner = self.learner.grown(self.scene.settings.network, key)
-        if learner.experiences:
-            learner = practised(self.scene, learner, loop, report)
-        self._become(learner)
+        self._become(practised(self.scene, learner, loop, report))
         self._look_again()
-        after = [self._error_of(entry) for entry in entries]
-        self._note(Learning(0, loop, began, None))
-        motions = [entry.motion for entry in entries]
-        return [Change(*each) for each in zip(motions, before, after, strict=True)]
+        after = [self._error_of(shown) for shown in known.values()]
+        changes = [Change(*each) for each in zip(known, before, after, strict=True)]
+        self._note(Learning(0, loop, began, 1, tuple(changes)))
+        return changes
 
     def return_to(self, standing: Standing) -> None:
         """Take everything back that has changed since."""
@@ -260,6 +281,10 @@ class Teaching:
     def _become(self, learner: Learner) -> None:
         self.numbers += 1
         self.return_to(replace(self.standing, learner=learner, number=self.numbers))
+
+    def _return_with_notebook(self, standing: Standing) -> None:
+        """Take the network back, and nothing that was noted since."""
+        self.return_to(replace(standing, notebook=self.notebook))
 
     def _note(self, learning: Learning) -> None:
         notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
@@ -282,9 +307,33 @@ class Teaching:
     def _trial(self, watched: Watched, interpretation: Interpretation) -> Trial:
         sequence = start_of(watched.path, self.scene.task)
         state, rows = interpretation.state, len(watched.path)
-        done = self.scene.perform(self.learner.network, state, sequence, rows, "teaching")
-        return Trial(done, state, path_error_cm(done.path, watched.path))
+        network = self.learner.network
+        done = self.scene.perform(network, state, sequence, rows, "teaching")
+        levels = dict(zip(network.names, network.sizes, strict=True))
+        return Trial(done, state, path_error_cm(done.path, watched.path), levels)
 
-    def _error_of(self, entry: Entry) -> float:
-        watched = self.watch(entry.demonstration)
+    def _taught(self) -> dict[str, Demonstration]:
+        """Return a demonstration of every motion that the robot was taught.
+
+        The latest that was practised; what it has learned elsewhere the scripted caregiver shows.
+        """
+        task, taught = self.scene.task, self.notebook.taught()
+        for motion in {e.motion: None for e in self.learner.experiences}:
+            with suppress(TaskError):  # babbling, and what is no sequence
+                if motion not in taught:
+                    rng = generator_for(self.scene.seed, "taught", motion)
+                    taught[motion] = self.scene.caregiver().demonstrate(task.sequence(motion), rng)
+        return taught
+
+    def _error_of(self, shown: Demonstration) -> float:
+        """Return by how much an imitation of a demonstration misses now [cm]."""
+        watched = self.watch(shown)
         return self._trial(watched, self.recogniser.at_the_end(watched)).error_cm
+
+    def _understood(self, demonstration: Demonstration) -> tuple[Watched, Interpretation, Verdict]:
+        """Watch a demonstration, and say what is understood of it."""
+        watched = self.watch(demonstration)
+        interpretation = self.recogniser.at_the_end(watched)
+        known = {e.motion for e in self.learner.experiences}
+        verdict = verdict_on(watched.path, interpretation.path, self.scene.task, known)
+        return watched, interpretation, verdict
