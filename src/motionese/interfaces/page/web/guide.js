@@ -5,15 +5,12 @@ import { primitivesOf, read } from "./task.js";
 const BUSY = {
   recognising: "It is thinking about what it saw …",
   performing: "Watch it try.",
-  learning: "It is practising what it did. This takes a moment.",
+  learning: "It is practising: watch every try; the first one stays as a ghost.",
   growing: "A slow level is growing.",
   demonstrating: "Watch the red hand: the robot is watching it, too.",
   "drawing the map": "It is trying out every slow state.",
   "beginning anew": "A new robot is babbling: it moves its arm and sees what comes of it.",
 };
-
-/** An imitation that misses by less is good: the hand of a person who shows it is no steadier. */
-const WELL_CM = 2;
 
 const KEYS = {
   choosing: "Arrow keys choose the place to start from. Space begins.",
@@ -45,8 +42,11 @@ export function guide(now) {
   if (step === "performed") {
     return `It missed by ${cm(performed.error_cm)}. Press Learn this to let it practise.`;
   }
+  if (step === "replayed") return replayed(now.replayed);
+  if (step === "grown") return now.grown.sentence;
+  if (step === "learned" && !suggest) return `${learned.sentence} ${invitation(next, false, true)}`;
+  if (step === "learned") return `${learned.sentence} ${suggest}`;
   if (suggest) return suggest;
-  if (step === "learned") return `${outcome(learned)} ${invitation(next, false, true)}`;
   return invitation(next, now.first);
 }
 
@@ -55,10 +55,9 @@ function judged({ sentence, motion, confidence }) {
   return `“${sentence}” ${isSure ? "Press Imitate to see it try." : "Press Learn this to teach it."}`;
 }
 
-function outcome({ before_cm: before, after_cm: after }) {
-  if (after < before) return `Its error fell from ${before.toFixed(1)} to ${cm(after)}.`;
-  if (after < WELL_CM) return `Its error is ${cm(after)}: it does this well.`;
-  return `Its error is ${cm(after)}; more examples will help.`;
+function replayed({ error_cm: error, attempt, pressed }) {
+  const outcome = pressed ? `, and ${pressed}` : "";
+  return `Its try ${attempt}: it missed by ${cm(error)}${outcome}. Learn this lets it practise again.`;
 }
 
 const cm = (value) => `${value.toFixed(1)} cm`;
