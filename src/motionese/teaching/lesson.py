@@ -37,12 +37,11 @@ class Lesson:
     def sentence(self) -> str:
         """What the lesson has brought, in words."""
         taught, outcome = self.changes[0], f", and {self.pressed}" if self.pressed else ""
-        now = f"{taught.before_cm:.1f} → {taught.after_cm:.1f} cm{outcome}."
         if self.kept:
-            return now
+            return f"{taught.before_cm:.1f} → {taught.after_cm:.1f} cm{outcome}."
         better = min(self.errors_cm[1:]) < taught.before_cm
         why = "practising this made others worse" if better else "practice did not make it better"
-        return f"{now} {AS_BEFORE}: {why}."
+        return f"{AS_BEFORE}: {why}. It misses by {taught.after_cm:.1f} cm{outcome}."
 
 
 def kept_practice(errors_cm: Sequence[float], overall_cm: Callable[[int], float]) -> int:

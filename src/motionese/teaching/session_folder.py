@@ -38,6 +38,8 @@ from motionese.teaching.trial_file import read_trial, write_trial
 FORMAT, VERSION = "motionese-teaching", 3
 SESSION = "session.json"
 FRESH = "fresh"
+CHANGED = (OSError, EOFError, ValueError, KeyError, TypeError, AttributeError, BadZipFile)
+"""What reading a file meets that was changed since it was written."""
 LEVELS = 2
 """Levels of a robot at the beginning: input and output, and the fastest context."""
 
@@ -239,7 +241,7 @@ def _whole(file: Path) -> Iterator[None]:
     """Say which file of a session is not as it was written, and what can be done."""
     try:
         yield
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, BadZipFile) as error:
+    except CHANGED as error:
         why = error.strerror if isinstance(error, OSError) else f"it was changed ({error})"
         raise StorageError(
             f"{file} cannot be read: {why}; put the file back as it was, or choose another "

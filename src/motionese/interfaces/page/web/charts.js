@@ -179,7 +179,12 @@ export class Activity {
     this.built = JSON.stringify([joints, levels]);
     this.widths = { actual: joints.length, commanded: joints.length };
     const goal = made("i", "key dashed", "commanded");
-    const io = [...keys(channels.map(({ name, unit }) => `${name} [${unit}]`)), made("small", "", "0 to 1 of range")];
+    // The unit is said once, after the last channel that has it.
+    const io = keys(
+      channels.map(({ name, unit }, i) =>
+        unit && channels[i + 1]?.unit !== unit ? `${name} [${unit}]` : name,
+      ),
+    );
     const figures = [
       figure("joints", ["Arm [°] ", ...keys(joints), goal]),
       ...levels.map(({ name, size }, i) =>

@@ -3,7 +3,7 @@
 import { made, shape } from "./dom.js";
 import { inWords, pictured } from "./task.js";
 
-const [WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT] = [150, 92, 26, 24, 8, 8];
+const [WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT] = [112, 84, 18, 25, 8, 6];
 /** A hand that shows a motion is no steadier [cm]. */
 const WELL_CM = 2;
 
@@ -28,7 +28,7 @@ function chart({ motion, points }, grown, scale) {
   });
   for (const cm of [0, scale.cm]) {
     svg.append(shape("line", { class: "axis", x1: LEFT, x2: WIDE - RIGHT, y1: y(cm), y2: y(cm) }));
-    svg.append(shape("text", { class: "end", x: LEFT - 4, y: y(cm) + 4 }, cm ? `${cm} cm` : "0"));
+    svg.append(shape("text", { class: "end", x: LEFT - 4, y: y(cm) + 4 }, `${cm}`));
   }
   svg.append(
     shape("line", { class: "well", x1: LEFT, x2: WIDE - RIGHT, y1: y(WELL_CM), y2: y(WELL_CM) }),
@@ -50,7 +50,7 @@ function chart({ motion, points }, grown, scale) {
 
 /** Return the errors of all tries [cm] as a small line, the last with a dot. */
 export function sparkline(errors) {
-  const [wide, high, rim] = [84, 22, 3];
+  const [wide, high, rim] = [64, 22, 3];
   const most = Math.max(...errors, WELL_CM);
   const at = errors.map((cm, i) => [
     rim + ((wide - 2 * rim) * i) / Math.max(errors.length - 1, 1),

@@ -23,13 +23,14 @@ function row({ entry, motion, source, errors, learned }, replay, forget) {
   if (learned) what.append(made("span", "learned", "learned"));
   const button = (does, label, title, act) => {
     const attributes = { type: "button", "data-testid": does, "data-entry": entry };
-    const it = made("button", "quiet small", label, { ...attributes, "aria-label": title });
+    const name = `quiet small ${label ? "" : "play"}`;
+    const it = made("button", name, label, { ...attributes, "aria-label": title, title });
     it.addEventListener("click", () => act(entry));
     return it;
   };
   const where = `entry ${entry}: ${inWords(motion)}`;
   const buttons = [
-    button("replay", errors.length ? "Replay" : "Show", `Show the last try of ${where}`, replay),
+    button("replay", "", `Show again ${where}`, replay),
     button("forget", "Undo", `Undo ${where}`, forget),
   ];
   return made("li", "", [what, attempts(errors), made("span", "buttons", buttons)], {
@@ -41,11 +42,8 @@ function row({ entry, motion, source, errors, learned }, replay, forget) {
 function attempts(errors) {
   if (!errors.length) return made("span", "errors", "not tried yet");
   const count = errors.length === 1 ? "1 try" : `${errors.length} tries`;
-  return made("span", "errors", [
-    sparkline(errors),
-    ` ${count}, now `,
-    made("b", "", `${errors.at(-1).toFixed(1)} cm`),
-  ]);
+  const last = made("b", "", `${errors.at(-1).toFixed(1)} cm`);
+  return made("span", "errors", [sparkline(errors), last, made("small", "", count)]);
 }
 
 /** Show the errors on the same motions before and after growing. */

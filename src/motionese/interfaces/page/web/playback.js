@@ -114,8 +114,9 @@ function axis(seconds, begins, motion) {
   }
   const { signs } = read(motion);
   begins.forEach((begin, i) => {
-    parts.push(shape("line", { class: "begin", x1: at(begin), x2: at(begin), y1: 0, y2: 30 }));
-    parts.push(shape("text", { class: "sign", x: at(begin), dx: 4, y: 29 }, signs[i] ?? ""));
+    const x = at(begin);
+    if (i) parts.push(shape("line", { class: "begin", x1: x, x2: x, y1: 0, y2: 30 }));
+    parts.push(shape("text", { class: "sign", x, dx: i ? 4 : -4, y: 29 }, signs[i] ?? ""));
   });
   return parts;
 }
