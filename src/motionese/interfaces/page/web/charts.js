@@ -213,7 +213,7 @@ export class Activity {
       this.charts[name] =
         size > MOST_LINES
           ? new Heat(others[i], `Activity of the ${titled(name)} units over time`)
-          : new Lines(others[i], (c) => strokes(c, size), { range: [-0.05, 1.05], incrs: [0.5] });
+          : new Lines(others[i], (c) => strokes(c, size), { range: [-0.05, 1.05], incrs: [0.5, 1] });
     });
     this.clear();
   }
