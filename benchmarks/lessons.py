@@ -5,7 +5,7 @@ each, then all over again, and at half of that its slow level opens. Before and 
 what the robot misses by is measured from outside, as a person would: a motion is shown and
 imitated. A lesson is worse where the motion taught is, or the mean over all that was taught.
 
-    python benchmarks/lessons.py 100 101 102 103 104
+    python benchmarks/lessons.py                # or so many seeds
 """
 
 import os
@@ -23,7 +23,7 @@ from motionese.experiment import read_settings
 from motionese.imitation import Scene, babbled, generator_for, newborn
 from motionese.teaching.session import Teaching
 
-ROUNDS = 2
+ROUNDS, SEEDS = 2, range(100, 105)
 
 
 def nothing(*progress: object) -> None:
@@ -70,7 +70,7 @@ def lessons_of(seed: int, console: Console) -> list[bool]:
 def main() -> None:
     """Teach robots of the seeds that are given, and count."""
     console = Console(markup=False, highlight=False)
-    worse = [each for seed in sys.argv[1:] for each in lessons_of(int(seed), console)]
+    worse = [each for seed in sys.argv[1:] or SEEDS for each in lessons_of(int(seed), console)]
     console.print(f"{sum(worse)} of {len(worse)} lessons left the robot worse than it was")
 
 
