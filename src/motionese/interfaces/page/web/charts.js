@@ -78,7 +78,13 @@ class Lines {
           y: { range: this.range },
         },
         axes: [
-          { ...axis, size: 17, space: 44, incrs: SECONDS, values: (_, values) => values.map(inSeconds) },
+          {
+            ...axis,
+            size: 17,
+            space: 44,
+            incrs: SECONDS,
+            values: (_, values) => values.map(inSeconds),
+          },
           {
             ...axis,
             size: this.size,
@@ -213,7 +219,10 @@ export class Activity {
       this.charts[name] =
         size > MOST_LINES
           ? new Heat(others[i], `Activity of the ${titled(name)} units over time`)
-          : new Lines(others[i], (c) => strokes(c, size), { range: [-0.05, 1.05], incrs: [0.5, 1] });
+          : new Lines(others[i], (c) => strokes(c, size), {
+              range: [-0.05, 1.05],
+              incrs: [0.5, 1],
+            });
     });
     this.clear();
   }

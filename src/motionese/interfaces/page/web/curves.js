@@ -37,7 +37,9 @@ function chart({ motion, points }, grown, scale) {
     svg.append(shape("line", { class: "grew", x1: x(n), x2: x(n), y1: TOP, y2: HIGH - BOTTOM }));
   for (const n of [0, scale.lessons])
     svg.append(shape("text", { class: "middle", x: x(n), y: HIGH - 11 }, `${n}`));
-  svg.append(shape("text", { class: "middle", x: (x(0) + x(scale.lessons)) / 2, y: HIGH - 1 }, "lessons"));
+  svg.append(
+    shape("text", { class: "middle", x: (x(0) + x(scale.lessons)) / 2, y: HIGH - 1 }, "lessons"),
+  );
   const way = points.map((p) => `${x(p.n).toFixed(1)},${y(p.error_cm).toFixed(1)}`).join(" ");
   svg.append(shape("polyline", { class: "line", points: way }));
   for (const { n, error_cm: cm, practised } of points)

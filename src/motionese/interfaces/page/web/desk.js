@@ -92,7 +92,10 @@ export function tidy(now) {
 /** Return which robot this is. */
 function origin(began) {
   if (!began) return "";
-  return { babbling: "A robot that began by babbling", fresh: "A newborn robot" }[began] ?? `Robot of ${began}`;
+  return (
+    { babbling: "A robot that began by babbling", fresh: "A newborn robot" }[began] ??
+    `Robot of ${began}`
+  );
 }
 
 /** A link without an address can be neither pressed nor reached by keys. */

@@ -284,12 +284,12 @@ function nextMotion() {
   return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "";
 }
 
-const motionOf = (entry) =>
-  now.session.notebook.find((one) => one.entry === entry)?.motion ?? "";
+const motionOf = (entry) => now.session.notebook.find((one) => one.entry === entry)?.motion ?? "";
 
 /** Show what the robot was shown last where nothing else is: that is what it would imitate. */
 function remember() {
-  const isIdle = !showing.drawing && !ghost.plays && !now.awaited && !now.pending && !now.session.busy;
+  const isIdle =
+    !showing.drawing && !ghost.plays && !now.awaited && !now.pending && !now.session.busy;
   if (isIdle && !now.step && now.session.shown !== null && !view.marks.drawn?.length)
     view.mark({ drawn: now.session.watched });
 }
@@ -298,7 +298,10 @@ function remember() {
 function toTheStage() {
   const { top, bottom } = part("robot").getBoundingClientRect();
   if (top >= 0 && bottom <= innerHeight) return;
-  part("stage").scrollIntoView({ behavior: prefersStillness() ? "auto" : "smooth", block: "start" });
+  part("stage").scrollIntoView({
+    behavior: prefersStillness() ? "auto" : "smooth",
+    block: "start",
+  });
 }
 
 function invite() {

@@ -62,7 +62,10 @@ export function direction(context, pixels, { colour, rim }) {
 }
 
 function chevron(context, [x, y], [along, down], colour, rim) {
-  const wing = (side) => [x - SIZE * along - side * SIZE * down, y - SIZE * down + side * SIZE * along];
+  const wing = (side) => [
+    x - SIZE * along - side * SIZE * down,
+    y - SIZE * down + side * SIZE * along,
+  ];
   context.lineCap = context.lineJoin = "round";
   for (const [stroke, width] of [
     [rim, 6],

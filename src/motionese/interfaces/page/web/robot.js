@@ -79,7 +79,8 @@ export class Robot {
       place(body, flat, i);
       const { position, quaternion } = this.bodies[i];
       body.visible =
-        position.distanceTo(body.position) > APART_M || quaternion.angleTo(body.quaternion) > APART_RAD;
+        position.distanceTo(body.position) > APART_M ||
+        quaternion.angleTo(body.quaternion) > APART_RAD;
     });
   }
 

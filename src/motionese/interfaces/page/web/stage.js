@@ -124,7 +124,11 @@ export class Stage {
       this.robot.draw();
     }
     // Charts cost as much as the robot: half as often, and at the end.
-    if (row === poses.length - 1 || Math.abs(seconds - this.charted) >= 0.2 || this.activity.begins) {
+    if (
+      row === poses.length - 1 ||
+      Math.abs(seconds - this.charted) >= 0.2 ||
+      this.activity.begins
+    ) {
       this.charted = seconds;
       this.activity.show(seconds);
     }
