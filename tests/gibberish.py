@@ -16,7 +16,18 @@ anything = some.recursive(
 )
 numbers = some.floats(-1, 2) | some.floats() | some.integers(-5, 5) | some.floats(0, 3e4)
 KINDS = (
-    *("hello", "pen", "demonstrate", "imitate", "learn", "forget", "grow", "map", "hover"),
+    *(
+        "hello",
+        "pen",
+        "demonstrate",
+        "imitate",
+        "learn",
+        "forget",
+        "replay",
+        "grow",
+        "map",
+        "hover",
+    ),
     *("begin", "stop", "export", "left", "refused", "__class__"),
 )
 near = some.fixed_dictionaries(
@@ -59,7 +70,11 @@ right = some.one_of(
         lambda motion: {"type": "demonstrate", "motion": motion},
         some.sampled_from(["UR ↓", "UR →", "LL ↑↓↑↓↑↓↑↓↑↓", "PUSH(R)+RAISE(R)", "babbling"]),
     ),
-    some.builds(lambda entry: {"type": "forget", "entry": entry}, some.integers(0, 40)),
+    some.builds(
+        lambda kind, entry: {"type": kind, "entry": entry},
+        some.sampled_from(["forget", "replay"]),
+        some.integers(0, 40),
+    ),
     some.builds(
         lambda a, b: {"type": "hover", "slow": [a, b], "primitive": "UR ↓"},
         some.floats(-100, 100),

@@ -102,8 +102,8 @@ class Person:
         self.page.get_by_test_id(button).click()
 
     def goes_to(self, element_id: str) -> None:
-        """Press Tab until an element has the focus."""
-        for _ in range(60):
+        """Press Tab until an element has the focus; every line of the notebook has two stops."""
+        for _ in range(60 + 2 * self.state()["notebook"]):
             if self.page.evaluate("document.activeElement.id") == element_id:
                 return
             self.page.keyboard.press("Tab")
@@ -127,6 +127,9 @@ class Person:
         self.until(lambda state: state["busy"])
         return self.until(lambda state: state["step"] == "learned" and not state["busy"])
 
+    def focused(self) -> str:
+        return self.page.evaluate("document.activeElement.id")
+
     def reads(self, test_id: str) -> str:
         return self.page.get_by_test_id(test_id).inner_text()
 
@@ -139,6 +142,10 @@ class Person:
         height, width = picture.shape[:2]
         rim = height // 6, width // 6
         return picture[rim[0] : -rim[0], rim[1] : -rim[1]].astype(int)
+
+    def tall(self) -> int:
+        """How tall the whole page is [px]."""
+        return self.page.evaluate("document.documentElement.scrollHeight")
 
     def points_sent(self) -> int:
         """How many points of drawings have gone to the robot."""

@@ -5,8 +5,9 @@ from drawn import points_of, view
 from small_runs import small_settings
 
 from motionese.imitation import Scene, newborn
+from motionese.teaching import session
 from motionese.teaching.drawing import Drawing, at_tempo
-from motionese.teaching.session import Teaching
+from motionese.teaching.session import PRACTICE, Teaching
 
 __all__ = ["small_settings"]
 
@@ -24,6 +25,17 @@ def fresh(scene):
 @pytest.fixture
 def teaching(scene, fresh):
     return Teaching(scene, fresh)
+
+
+@pytest.fixture
+def kept(monkeypatch):
+    """Every lesson is kept, however little its short training brings."""
+
+    def last(errors_cm, overall_cm):
+        overall_cm(0), overall_cm(PRACTICE)
+        return PRACTICE
+
+    monkeypatch.setattr(session, "kept_practice", last)
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from drawn import points_of
+from drawn import points_of, view
 from hypothesis import given
 from hypothesis import strategies as some
 
-from motionese.caregiver import lasting
+from motionese.caregiver import lasting, sequence_in
 from motionese.task import PUSHING_BUTTONS
 from motionese.teaching.drawing import LONGEST_S, MOST_POINTS, Drawing, DrawingError, at_tempo
 
@@ -46,7 +46,7 @@ def test_a_point_at_the_end_of_time_costs_no_memory():
     drawing = Drawing()
     drawing.add([(0.0, 0.1, 0.1), (100.0, 0.2, 0.2), (1e12, 0.3, 0.3), (200.0, 0.4, 0.4)])
     assert drawing.full and drawing.seconds == 0.1
-    assert len(drawing.sampled(10.0)) < 10
+    assert len(drawing.sampled(10.0)) < 20
 
 
 @given(
@@ -69,3 +69,16 @@ def test_rows_follow_the_pen():
     drawing.add(points_of("UR ↓", seconds=2.0))
     sampled = drawing.sampled(10.0)
     assert np.diff(sampled[:, 1]).min() > -0.01, "downwards all the way"
+
+
+@pytest.mark.parametrize(("name", "milliseconds"), [("UR ↓", 60), ("UR ↓↑", 120), ("UR ←↓", 240)])
+def test_a_flick_is_seen_to_its_end(scene, name, milliseconds):
+    points = points_of(name)
+    share = milliseconds / points[-1][0]
+    drawing = Drawing()
+    drawing.add([(share * t, x, y) for t, x, y in points])
+    positions, _ = view().positions(drawing.sampled(scene.body.rate_hz))
+    path = at_tempo(positions, scene.task, scene.settings.caregiver)
+    shown = scene.task.sequence(name)
+    assert sequence_in(path, scene.task) == shown
+    assert np.linalg.norm(path[-1] - scene.task.position(shown.places[-1])) < 0.02

@@ -20,6 +20,8 @@ SHORTEST_M = 0.06
 MOST_STROKES = 6
 """A demonstration is at most as long as so many strokes."""
 FINE_HZ = 100.0
+QUICKEST_S = 1.0
+"""A quicker drawing is slowed to last so long: it would have no rows between its ends."""
 
 
 class DrawingError(MotioneseError):
@@ -56,14 +58,15 @@ class Drawing:
         """Return x, y at an even rate, each row the mean over the interval around it."""
         times, *places = np.array(self._points).T
         times, kept = np.unique((times - times[0]) / 1000, return_index=True)
+        times = times * max(1.0, QUICKEST_S / times[-1]) if times[-1] else times
         fine = np.arange(0.0, times[-1] + 1 / FINE_HZ, 1 / FINE_HZ)
         width = round(FINE_HZ / rate_hz)
-        rows = np.arange(0, len(fine), width)
+        rows = np.arange(0, len(fine) + width - 1, width)  # the last is not before the end
         columns = []
         for place in places:
             even = np.interp(fine, times, place[kept])
             # Ends are held, so that the first row is where the pen was set down.
-            held = np.pad(even, (width // 2, width - width // 2 - 1), mode="edge")
+            held = np.pad(even, (width // 2, 2 * width), mode="edge")
             columns.append(np.convolve(held, np.full(width, 1 / width), mode="valid")[rows])
         return np.stack(columns, axis=-1)
 

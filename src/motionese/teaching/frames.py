@@ -1,5 +1,6 @@
 """A performance as a film of poses and activity, for a page that shows it in real time."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,6 @@ from numpy import ndarray
 from motionese.body import Geometry
 from motionese.caregiver import lasting
 from motionese.imitation import Performance
-from motionese.network import MTRNN
 
 FRAMES_A_ROW = 2
 """Frames a control period: 20 a second at a body's 10 Hz."""
@@ -45,8 +45,13 @@ class Film:
         return {**columns, "activity": activity}
 
 
-def film(geometry: Geometry, network: MTRNN, performance: Performance, rate_hz: float) -> Film:
-    """Return the film of a performance of so many rows a second, outside and inside."""
+def film(
+    geometry: Geometry, levels: Mapping[str, int], performance: Performance, rate_hz: float
+) -> Film:
+    """Return the film of a performance of so many rows a second, outside and inside.
+
+    `levels` are the sizes of the network's levels by name.
+    """
     rows = len(performance.path)
     frames = FRAMES_A_ROW * (rows - 1) + 1
     columns = {
@@ -56,12 +61,9 @@ def film(geometry: Geometry, network: MTRNN, performance: Performance, rate_hz: 
     }
     finer = {name: lasting(column, frames) for name, column in columns.items() if column.size}
     poses = geometry.placed(lasting(performance.poses, frames))
-    inside = performance.activity
+    inside = np.split(performance.activity, np.cumsum([*levels.values()])[:-1], axis=1)
     return Film(
         rate_hz=FRAMES_A_ROW * rate_hz,
         columns={"poses": poses.reshape(frames, -1), "effects": np.zeros((frames, 0)), **finer},
-        activity={
-            level.name: lasting(inside[:, network.units(level.name)], frames)
-            for level in network.levels
-        },
+        activity={name: lasting(units, frames) for name, units in zip(levels, inside, strict=True)},
     )

@@ -7,6 +7,7 @@ from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.caregiver import Demonstration
+from motionese.teaching.trial import Trial
 
 Source = Literal["drawn", "webcam", "scripted"]
 
@@ -22,6 +23,7 @@ class Entry:
         drawn: The hand's path [m, world] as it was drawn in time. [R, 3]
         demonstration: The same at the robot's tempo.
         errors_cm: The imitations' errors, in order [cm].
+        tried: The last imitation, whatever the network was then; None before the first.
     """
 
     number: int
@@ -30,6 +32,20 @@ class Entry:
     drawn: Float[ndarray, "R 3"]
     demonstration: Demonstration
     errors_cm: tuple[float, ...] = ()
+    tried: Trial | None = None
+
+    def with_trial(self, trial: Trial) -> "Entry":
+        """Return the entry with a further imitation."""
+        return replace(self, errors_cm=(*self.errors_cm, trial.error_cm), tried=trial)
+
+
+@dataclass(frozen=True)
+class Change:
+    """Errors [cm] of an imitation before and after the network changed."""
+
+    motion: str
+    before_cm: float
+    after_cm: float
 
 
 @dataclass(frozen=True)
@@ -40,13 +56,24 @@ class Learning:
         entry: The notebook's entry that was learned; 0 for growth.
         loop: The last loop that its experience carries.
         before: The number of the learner that was there before.
-        error_cm: The imitation's error afterwards [cm]; None for growth.
+        kept: After how many practices the network was kept; 0 as it was before.
+        changes: All that the robot was taught, before and after; what was practised comes first.
     """
 
     entry: int
     loop: int
     before: int
-    error_cm: float | None
+    kept: int
+    changes: tuple[Change, ...]
+
+
+@dataclass(frozen=True)
+class Point:
+    """A motion's error [cm] after so many learnings, and whether it was what was practised."""
+
+    after: int
+    error_cm: float
+    practised: bool
 
 
 @dataclass(frozen=True)
@@ -75,14 +102,23 @@ class Notebook:
             learned=tuple(each for each in self.learned if each.entry != number),
         )
 
-    def latest(self) -> tuple[Entry, ...]:
-        """Return the latest entry of every motion."""
-        return tuple({e.motion: e for e in self.entries}.values())
+    def taught(self) -> dict[str, Demonstration]:
+        """Return the latest demonstration of every motion that was practised."""
+        practised = {each.entry for each in self.learned}
+        return {e.motion: e.demonstration for e in self.entries if e.number in practised}
 
     @property
-    def curve(self) -> tuple[float, ...]:
-        """The imitation error after every learning [cm]."""
-        return tuple(each.error_cm for each in self.learned if each.error_cm is not None)
+    def curves(self) -> dict[str, list[Point]]:
+        """Return by motion its error before its first learning, and after every one since."""
+        curves: dict[str, list[Point]] = {}
+        for number, learning in enumerate(self.learned, 1):
+            for place, change in enumerate(learning.changes):
+                practised = bool(learning.entry) and place == 0
+                curve = curves.setdefault(
+                    change.motion, [Point(number - 1, change.before_cm, practised=False)]
+                )
+                curve.append(Point(number, change.after_cm, practised))
+        return curves
 
     @property
     def last_loop(self) -> int:

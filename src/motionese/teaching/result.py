@@ -59,11 +59,16 @@ class Result:
         return "show" if self.good else "learn"
 
     @property
+    def pressed(self) -> str:
+        """In words the first push that failed, or else the last; empty where none was due."""
+        failed = [push for push in self.pushes if not push.made]
+        return next((push.sentence for push in (*failed, *reversed(self.pushes))), "")
+
+    @property
     def sentence(self) -> str:
-        """It in words; of several pushes those that failed are told, or else the last."""
-        told = [push for push in self.pushes if not push.made][:1] or self.pushes[-1:]
+        """It in words."""
         missed = f"It missed by {self.error_cm:.1f} cm"
-        joined = f"{missed} and {told[0].sentence}." if told else f"{missed}."
+        joined = f"{missed} and {self.pressed}." if self.pressed else f"{missed}."
         return f"{joined} It does this well." if self.good else joined
 
 

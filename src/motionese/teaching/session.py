@@ -4,10 +4,12 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
+import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
 from motionese.caregiver import SOMETHING_ELSE, Demonstration, hypotheses, segmented
+from motionese.errors import MotioneseError
 from motionese.imitation import (
     Learner,
     Performance,
@@ -20,16 +22,25 @@ from motionese.imitation import (
     watch,
 )
 from motionese.teaching.claim import claim_on
-from motionese.teaching.notebook import Entry, Learning, Notebook, Source
+from motionese.teaching.lesson import Lesson, kept_practice
+from motionese.teaching.notebook import Change, Entry, Learning, Notebook, Source
 from motionese.teaching.practice import Report, practised
 from motionese.teaching.recogniser import Interpretation, Recogniser, start_of
 from motionese.teaching.result import Result, result_of
+from motionese.teaching.trial import Trial
 from motionese.teaching.verdict import Verdict, seen_in_words, sequence_called
 
 OWN = "your motion"
 """A motion that is no sequence of the task is called this, and a number."""
 PRACTICE = 5
 """Imitation loops of one learning: imitate, and train on what the own body did, so many times."""
+
+Tried = Callable[[Trial], None]
+"""Called with every try of a lesson, as it comes."""
+
+
+class GrowthError(MotioneseError):
+    """There is nothing yet that a slow level could learn from."""
 
 
 @dataclass(frozen=True)
@@ -43,41 +54,19 @@ class Observation:
 
 
 @dataclass(frozen=True)
-class Trial:
-    """A performance of what was shown, the initial state it began from, and what it came to."""
-
-    performance: Performance
-    state: Float[ndarray, " N"]
-    result: Result
-
-    @property
-    def error_cm(self) -> float:
-        """Its error [cm]."""
-        return self.result.error_cm
-
-
-@dataclass(frozen=True)
-class Change:
-    """Errors [cm] of an imitation before and after the network changed."""
-
-    motion: str
-    before_cm: float
-    after_cm: float
-
-
-@dataclass(frozen=True)
 class Standing:
     """Where a session stands; it can be returned to.
 
-    No two learners of a session have the same number; `observed` is what was shown last, `tried`
-    what this learner's last try of a motion came to.
+    No two learners of a session have the same number; `observed` is what was shown last, `results`
+    what this learner's last try of every motion came to: those of others, as the notebook keeps
+    them, say nothing of what it can do.
     """
 
     learner: Learner
     number: int
     notebook: Notebook
     observed: Observation | None = None
-    tried: Mapping[str, Result] = field(default_factory=dict)
+    results: Mapping[str, Result] = field(default_factory=dict)
 
 
 class Teaching:
@@ -129,8 +118,7 @@ class Teaching:
         learned = self.notebook.learned
         grown = [i for i, each in enumerate(learned) if not each.entry]
         since = learned[grown[-1] + 1 if grown else 0 :]
-        errors = [each.error_cm for each in since if each.error_cm is not None]
-        return self.can_grow and Settled().by(errors)
+        return self.can_grow and Settled().by([each.changes[0].after_cm for each in since])
 
     def watch(self, demonstration: Demonstration) -> Watched:
         """Let the robot watch a demonstration."""
@@ -152,11 +140,8 @@ class Teaching:
         motion = next(iter(seen))
         if motion == SOMETHING_ELSE:
             motion = self._own_name()
-        sequence = sequence_called(motion, self.scene.task)
-        demonstration = segmented(path, sequence, self.scene.task)
-        watched = self.watch(demonstration)
-        interpretation = self.recogniser.at_the_end(watched)
-        verdict = self._verdict(seen, motion, watched, interpretation)
+        demonstration = segmented(path, sequence_called(motion, self.scene.task), self.scene.task)
+        watched, interpretation, verdict = self._understood(demonstration, motion, seen)
         drawn = path if drawn is None else drawn
         entry = Entry(notebook.next, motion, source, drawn, demonstration)
         observed = Observation(entry, watched, interpretation, verdict)
@@ -169,50 +154,77 @@ class Teaching:
 
         Known are the task's sequences and the person's own motions, as they were last shown.
         """
-        task = self.scene.task
-        latest = {entry.motion: entry for entry in self.notebook.latest()}
-        own = {n: e.demonstration.path for n, e in latest.items() if not sequence_called(n, task)}
+        task, entries = self.scene.task, self.notebook.entries
+        own = {
+            e.motion: e.demonstration.path for e in entries if not sequence_called(e.motion, task)
+        }
         return hypotheses(path, task, own, whole=whole)
+
+    def look_back(self, number: int) -> Observation | None:
+        """Watch an entry of the notebook again: it is what is imitated and learned next."""
+        entry = self.notebook.entry(number)
+        if entry is None:
+            return None
+        shown = entry.demonstration
+        observed = Observation(entry, *self._understood(shown, entry.motion, self.seen(shown.path)))
+        self.standing = replace(self.standing, observed=observed)
+        return observed
 
     def imitate(self) -> Trial:
         """Perform what was shown last, and note the error."""
         observed = self._observed()
-        trial = self._trial(observed.watched, observed.interpretation, observed.entry.motion)
-        entry = self.notebook.entry(observed.entry.number) or observed.entry
-        entry = replace(entry, errors_cm=(*entry.errors_cm, trial.error_cm))
+        trial = self._trial(observed)
+        entry = (self.notebook.entry(observed.entry.number) or observed.entry).with_trial(trial)
         observed = replace(observed, entry=entry)
         notebook = self.notebook.with_entry(entry)
-        tried = {**self.standing.tried, entry.motion: trial.result}
-        self.standing = replace(self.standing, notebook=notebook, observed=observed, tried=tried)
+        results = {**self.standing.results, entry.motion: trial.result}
+        self.standing = replace(
+            self.standing, notebook=notebook, observed=observed, results=results
+        )
         return trial
 
-    def learn(self, report: Report) -> Change:
+    def learn(self, report: Report, tried: Tried = lambda trial: None) -> Lesson:
         """Learn what was shown last by imitating it, as in the experiment's loop, a few times.
 
-        The network of the practice after which the imitation was best is kept: one motion alone
-        is little to learn from, and a further practice may lead away again. It is then what the
-        robot does last, and what the notebook ends with.
+        Which network is kept is said in `lesson`; it is what the notebook ends with.
         """
         began, entry, loop = self.standing.number, self._observed().entry, self._last_loop()
-        copied = self.scene.settings.imitation.efference_copy
-        before = trial = self.imitate()
-        outcomes: list[tuple[float, Standing]] = []
-        for practice in range(PRACTICE):
-            loop += 1
-            values = trial.performance.experience(copied)
-            learner = self.learner.experiencing(
-                loop, entry.motion, values, trial.state, self.learner.begins_with(entry.motion)
-            )
-            self._become(practised(self.scene, learner, loop, report, (practice, PRACTICE)))
-            self._look_again()
+        others = {m: shown for m, shown in self._taught().items() if m != entry.motion}
+        outcomes: list[tuple[Trial, Standing]] = []
+        for practice in range(PRACTICE + 1):
+            if practice:
+                loop += 1
+                self._practise(outcomes[-1][0], loop, report, practice)
             trial = self.imitate()
-            outcomes.append((trial.error_cm, self.standing))
-        error, best = min(outcomes, key=lambda each: each[0])
-        self.return_to(replace(best, notebook=self.notebook))
-        if error < trial.error_cm:
-            self.imitate()
-        self._note(Learning(entry.number, loop, began, error))
-        return Change(entry.motion, before.error_cm, error)
+            tried(trial)
+            outcomes.append((trial, self.standing))
+        errors = tuple(trial.error_cm for trial, _ in outcomes)
+        measured: dict[int, dict[str, float]] = {}
+
+        def overall(practices: int) -> float:
+            self._return_with_notebook(outcomes[practices][1])
+            measured[practices] = {m: self._error_of(shown) for m, shown in others.items()}
+            return float(np.mean([errors[practices], *measured[practices].values()]))
+
+        kept = kept_practice(errors, overall)
+        self._return_with_notebook(outcomes[kept][1])
+        if kept < PRACTICE:
+            trial = self.imitate()
+        taught = Change(entry.motion, errors[0], errors[kept])
+        changes = (taught, *(Change(m, measured[0][m], measured[kept][m]) for m in others))
+        self._note(Learning(entry.number, loop, began, kept, changes))
+        claim = self._judged_again().claim
+        return Lesson(entry.number, errors, kept, changes, trial.result, claim)
+
+    def _practise(self, trial: Trial, loop: int, report: Report, practice: int) -> None:
+        """Train on what the own body did in a try, and look at what was shown again."""
+        motion = self._observed().entry.motion
+        values = trial.performance.experience(self.scene.settings.imitation.efference_copy)
+        learner = self.learner.experiencing(
+            loop, motion, values, trial.state, self.learner.begins_with(motion)
+        )
+        self._become(practised(self.scene, learner, loop, report, (practice - 1, PRACTICE)))
+        self._look_again()
 
     def forget(self, number: int, kept: Callable[[int], Learner]) -> str:
         """Take an entry out of the notebook, and what was learned of it back.
@@ -242,7 +254,7 @@ class Teaching:
         if all(each.entry == number for each in since):
             earlier = since[0].before
             learner = kept(earlier)
-            self.return_to(replace(self.standing, learner=learner, number=earlier, tried={}))
+            self.return_to(replace(self.standing, learner=learner, number=earlier, results={}))
             return f"{entry.motion} is forgotten: the network is again what it was before."
         loops = {each.loop - i for each in since if each.entry == number for i in range(PRACTICE)}
         left = tuple(e for e in self.learner.experiences if e.loop not in loops)
@@ -253,20 +265,27 @@ class Teaching:
         )
 
     def grow(self, report: Report) -> list[Change]:
-        """Open the next level, let it learn with the others, and compare the same imitations."""
-        entries, began, loop = self.notebook.latest(), self.standing.number, self._last_loop()
-        before = [self._error_of(entry) for entry in entries]
+        """Open the next level, let it learn with the others, and compare the same imitations.
+
+        Raises:
+            GrowthError: The robot was taught nothing yet.
+        """
+        known, began, loop = self._taught(), self.standing.number, self._last_loop()
+        if not known:
+            raise GrowthError(
+                "First show me a motion and press Learn this: a slow level grows on what I have "
+                "practised."
+            )
+        before = [self._error_of(shown) for shown in known.values()]
         # The network's own key, as in the experiment: see `experiment.run`.
         key = key_for(self.scene.seed, "network")
         learner = self.learner.grown(self.scene.settings.network, key)
-        if learner.experiences:
-            learner = practised(self.scene, learner, loop, report)
-        self._become(learner)
+        self._become(practised(self.scene, learner, loop, report))
         self._look_again()
-        after = [self._error_of(entry) for entry in entries]
-        self._note(Learning(0, loop, began, None))
-        motions = [entry.motion for entry in entries]
-        return [Change(*each) for each in zip(motions, before, after, strict=True)]
+        after = [self._error_of(shown) for shown in known.values()]
+        changes = [Change(*each) for each in zip(known, before, after, strict=True)]
+        self._note(Learning(0, loop, began, 1, tuple(changes)))
+        return changes
 
     def return_to(self, standing: Standing) -> None:
         """Take everything back that has changed since."""
@@ -286,6 +305,14 @@ class Teaching:
         state = interpretation.state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
 
+    def _understood(
+        self, demonstration: Demonstration, motion: str, seen: Mapping[str, float]
+    ) -> tuple[Watched, Interpretation, Verdict]:
+        """Watch a demonstration of a motion, and say what is understood of it."""
+        watched = self.watch(demonstration)
+        interpretation = self.recogniser.at_the_end(watched)
+        return watched, interpretation, self._verdict(seen, motion, watched, interpretation)
+
     def _verdict(
         self,
         seen: Mapping[str, float],
@@ -293,7 +320,7 @@ class Teaching:
         watched: Watched,
         interpretation: Interpretation,
     ) -> Verdict:
-        task, tried = self.scene.task, self.standing.tried.get(motion)
+        task, tried = self.scene.task, self.standing.results.get(motion)
         sequence = sequence_called(motion, task)
         claim = claim_on(watched, sequence, self.recogniser, interpretation, tried)
         learned = {e.motion for e in self.learner.experiences}
@@ -315,7 +342,11 @@ class Teaching:
 
     def _become(self, learner: Learner) -> None:
         self.numbers += 1
-        self.return_to(replace(self.standing, learner=learner, number=self.numbers, tried={}))
+        self.return_to(replace(self.standing, learner=learner, number=self.numbers, results={}))
+
+    def _return_with_notebook(self, standing: Standing) -> None:
+        """Take the network back, and nothing that was noted since."""
+        self.return_to(replace(standing, notebook=self.notebook))
 
     def _note(self, learning: Learning) -> None:
         notebook = replace(self.notebook, learned=(*self.notebook.learned, learning))
@@ -328,6 +359,14 @@ class Teaching:
             observed = replace(observed, interpretation=interpretation)
             self.standing = replace(self.standing, observed=observed)
 
+    def _judged_again(self) -> Verdict:
+        """Judge what was shown last with the network as it is now."""
+        observed = self._observed()
+        seen, motion = observed.verdict.seen, observed.entry.motion
+        verdict = self._verdict(seen, motion, observed.watched, observed.interpretation)
+        self.standing = replace(self.standing, observed=replace(observed, verdict=verdict))
+        return verdict
+
     def _observed(self) -> Observation:
         assert self.observed is not None, "something must be shown before it is imitated"
         return self.observed
@@ -335,13 +374,34 @@ class Teaching:
     def _last_loop(self) -> int:
         return max([self.notebook.last_loop, *(e.loop for e in self.learner.experiences)])
 
-    def _trial(self, watched: Watched, interpretation: Interpretation, motion: str) -> Trial:
-        task, state = self.scene.task, interpretation.state
-        start, rows = start_of(watched.path, task), len(watched.path)
-        done = self.scene.perform(self.learner.network, state, start, rows, "teaching")
-        return Trial(done, state, result_of(done, watched, sequence_called(motion, task), task))
+    def _performed(self, watched: Watched, interpretation: Interpretation) -> Performance:
+        start, rows = start_of(watched.path, self.scene.task), len(watched.path)
+        network = self.learner.network
+        return self.scene.perform(network, interpretation.state, start, rows, "teaching")
 
-    def _error_of(self, entry: Entry) -> float:
-        watched = self.watch(entry.demonstration)
-        understood = self.recogniser.at_the_end(watched)
-        return self._trial(watched, understood, entry.motion).error_cm
+    def _trial(self, observed: Observation) -> Trial:
+        task, network, watched = self.scene.task, self.learner.network, observed.watched
+        done = self._performed(watched, observed.interpretation)
+        result = result_of(done, watched, sequence_called(observed.entry.motion, task), task)
+        levels = dict(zip(network.names, network.sizes, strict=True))
+        return Trial(done, observed.interpretation.state, result, levels)
+
+    def _taught(self) -> dict[str, Demonstration]:
+        """Return a demonstration of every motion that the robot was taught.
+
+        The latest that was practised; what it has learned elsewhere the scripted caregiver shows,
+        but babbling, and what is no sequence.
+        """
+        taught = self.notebook.taught()
+        for motion in {e.motion: None for e in self.learner.experiences}:
+            sequence = sequence_called(motion, self.scene.task)
+            if sequence and motion not in taught:
+                rng = generator_for(self.scene.seed, "taught", motion)
+                taught[motion] = self.scene.caregiver().demonstrate(sequence, rng)
+        return taught
+
+    def _error_of(self, shown: Demonstration) -> float:
+        """Return by how much an imitation of a demonstration misses now [cm]."""
+        watched = self.watch(shown)
+        done = self._performed(watched, self.recogniser.at_the_end(watched))
+        return path_error_cm(done.path, watched.path)

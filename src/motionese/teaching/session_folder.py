@@ -5,6 +5,8 @@
 
 import io
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -28,12 +30,15 @@ from motionese.imitation import (
     write_learner,
 )
 from motionese.recordings import write
-from motionese.teaching.notebook import Entry, Learning, Notebook
+from motionese.teaching.notebook import Change, Entry, Learning, Notebook
 from motionese.teaching.session import Teaching
+from motionese.teaching.trial_file import read_trial, write_trial
 
-FORMAT, VERSION = "motionese-teaching", 2
+FORMAT, VERSION = "motionese-teaching", 3
 SESSION = "session.json"
 FRESH = "fresh"
+CHANGED = (OSError, EOFError, ValueError, KeyError, TypeError, AttributeError, BadZipFile)
+"""What reading a file meets that was changed since it was written."""
 LEVELS = 2
 """Levels of a robot at the beginning: input and output, and the fastest context."""
 
@@ -50,9 +55,9 @@ class SessionFolder:
         """Keep a session in a folder, which is made when it is first saved."""
         self.path = path
         self.id, self.began = uuid4().hex[:12], ""
-        # What this process knows to be written: the learner's number, and the entries'. A file that
-        # a killed process has left under a number that was not yet given counts for nothing.
-        self._written, self._entries = 0, set[int]()
+        # What this process knows to be written: the learner's number, and the entries' files. One
+        # that a killed process has left under a number that was not yet given counts for nothing.
+        self._written, self._entries = 0, set[Path]()
 
     @property
     def exists(self) -> bool:
@@ -102,7 +107,7 @@ class SessionFolder:
             StorageError: What is in the folder is no session, or it began from something else.
         """
         file = self.path / SESSION
-        try:
+        with _whole(file):
             facts = json.loads(file.read_text())
             if facts.get("format") != FORMAT:
                 raise StorageError(f"{file} was not written by motionese")
@@ -113,21 +118,20 @@ class SessionFolder:
                     "--session"
                 )
             self.id, self.began = str(facts["id"]), str(facts["began"])
-            notebook = Notebook(
-                entries=tuple(self._entry(each) for each in facts["entries"]),
-                learned=tuple(Learning(**each) for each in facts["learned"]),
-                next=int(facts["next"]),
-            )
             number, numbers, seed = (int(facts[name]) for name in ("learner", "learners", "seed"))
             settings = checked(Settings, facts["settings"])
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, BadZipFile) as e:
-            raise StorageError(f"{self.path}: no session that can be read; it was changed") from e
+            notebook = Notebook(
+                entries=tuple(self._entry(each) for each in facts["entries"]),
+                learned=tuple(_learning(each) for each in facts["learned"]),
+                next=int(facts["next"]),
+            )
         if begin and begin != self.began:
             raise StorageError(
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
                 "choose another --session"
             )
-        self._written, self._entries = number, {entry.number for entry in notebook.entries}
+        self._written = number
+        self._entries = {file for entry in notebook.entries for file in self._files_of(entry)}
         scene, learner = Scene(settings, seed), self.learner(number)
         return Teaching(scene, learner, notebook, number=number, numbers=numbers)
 
@@ -141,11 +145,7 @@ class SessionFolder:
                 write_learner(self._learner_path(number), teaching.learner, rate_hz, {})
                 self._written = number
             for entry in notebook.entries:
-                if entry.number not in self._entries:
-                    content, shown = io.BytesIO(), entry.demonstration
-                    np.savez(content, drawn=entry.drawn, path=shown.path, begins=shown.begins)
-                    write_whole(self._entry_path(entry.number), content.getvalue())
-                    self._entries.add(entry.number)
+                self._write(entry)
             drawn = ((_shows(entry, teaching.scene), entry.drawn) for entry in notebook.entries)
             recording = recording_of(drawn, rate_hz)
             if recording is not None:
@@ -158,6 +158,17 @@ class SessionFolder:
     def learner(self, number: int) -> Learner:
         """Return the learner of a number that was kept."""
         return read_learner(self._learner_path(number))[0]
+
+    def _write(self, entry: Entry) -> None:
+        """Write what was shown, and the last try at it."""
+        shown_in, tried_in = self._files_of(entry)
+        if shown_in not in self._entries:
+            content, shown = io.BytesIO(), entry.demonstration
+            np.savez(content, drawn=entry.drawn, path=shown.path, begins=shown.begins)
+            write_whole(shown_in, content.getvalue())
+        if entry.tried and tried_in not in self._entries:
+            write_trial(tried_in, entry.tried)
+        self._entries |= {shown_in, tried_in}
 
     def _facts(self, teaching: Teaching) -> dict[str, Any]:
         names = ("number", "motion", "source", "errors_cm")
@@ -179,17 +190,25 @@ class SessionFolder:
         }
 
     def _entry(self, facts: dict[str, Any]) -> Entry:
-        path = self._entry_path(facts["number"])
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+        errors = tuple(facts["errors_cm"])
+        shown_in, tried_in = self._paths(facts["number"], len(errors))
+        with _whole(shown_in), shown_in.open("rb") as file:
+            arrays = np.load(file, allow_pickle=False)
             begins = tuple(int(row) for row in arrays["begins"])
-            return Entry(
-                **{**facts, "errors_cm": tuple(facts["errors_cm"])},
-                drawn=arrays["drawn"],
-                demonstration=Demonstration(arrays["path"], begins),
-            )
+            shown, drawn = Demonstration(arrays["path"], begins), arrays["drawn"]
+        with _whole(tried_in):
+            tried = read_trial(tried_in) if errors else None
+        return Entry(
+            **{**facts, "errors_cm": errors}, drawn=drawn, demonstration=shown, tried=tried
+        )
 
-    def _entry_path(self, number: int) -> Path:
-        return self.path / f"shown-{int(number):04d}.npz"
+    def _files_of(self, entry: Entry) -> tuple[Path, Path]:
+        return self._paths(entry.number, len(entry.errors_cm))
+
+    def _paths(self, number: int, tries: int) -> tuple[Path, Path]:
+        """Return the files of what was shown, and of the last of so many tries at it."""
+        shown, tried = f"shown-{int(number):04d}.npz", f"tried-{int(number):04d}-{tries:05d}.npz"
+        return self.path / shown, self.path / tried
 
     def _learner_path(self, number: int) -> Path:
         return self.path / f"learner-{number:05d}.safetensors"
@@ -198,8 +217,9 @@ class SessionFolder:
         notebook = teaching.notebook
         kept = {teaching.standing.number, *(each.before for each in notebook.learned)}
         named = {self._learner_path(number) for number in kept}
-        named |= {self._entry_path(entry.number) for entry in notebook.entries}
-        for pattern in ("learner-*.safetensors", "shown-*.npz"):
+        named |= {file for entry in notebook.entries for file in self._files_of(entry)}
+        self._entries &= named
+        for pattern in ("learner-*.safetensors", "shown-*.npz", "tried-*.npz"):
             for path in set(self.path.glob(pattern)) - named:
                 path.unlink(missing_ok=True)
         if not notebook.entries:
@@ -209,6 +229,23 @@ class SessionFolder:
 def _new(began: str, scene: Scene) -> Learner:
     learner = newborn(scene, LEVELS)
     return babbled(scene, learner) if began == BABBLING else learner
+
+
+def _learning(facts: dict[str, Any]) -> Learning:
+    return Learning(**{**facts, "changes": tuple(Change(**each) for each in facts["changes"])})
+
+
+@contextmanager
+def _whole(file: Path) -> Iterator[None]:
+    """Say which file of a session is not as it was written, and what can be done."""
+    try:
+        yield
+    except CHANGED as error:
+        why = error.strerror if isinstance(error, OSError) else f"it was changed ({error})"
+        raise StorageError(
+            f"{file} cannot be read: {why}; put the file back as it was, or choose another "
+            "--session"
+        ) from error
 
 
 def _shows(entry: Entry, scene: Scene) -> str:

@@ -1,5 +1,6 @@
 """A page teaches a robot through the server, with the robot in a process of its own."""
 
+import numpy as np
 import pytest
 from drawn import pen, strokes
 from gibberish import messages, right
@@ -7,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 from pages import page, served
 
-from motionese.imitation import Scene
+from motionese.imitation import Scene, newborn
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
 from motionese.recordings import read
@@ -16,9 +17,11 @@ from motionese.teaching.session_folder import SessionFolder
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory, small_settings):
-    """The folder of a session whose robot knows nothing and learns in a moment."""
+    """The folder of a session whose robot knows next to nothing and learns in a moment."""
     folder, scene = SessionFolder(tmp_path_factory.mktemp("session")), Scene(small_settings, 0)
-    folder.begin("fresh", scene)
+    learner = newborn(scene, 2)
+    values, state = np.full((14, len(learner.channels)), 0.5), np.zeros(learner.network.size)
+    folder.begin("fresh", scene, learner.experiencing(1, "LL ↑", values, state))
     return folder.path
 
 
@@ -57,6 +60,7 @@ def test_a_page_is_told_all_it_needs(client):
         scene["robot"]["geoms"][0]
     )
     assert len(scene["robot"]["pose"]) == 7 * len(scene["robot"]["bodies"])
+    assert [c["unit"] for c in scene["channels"]] == ["rad"] * 4 + ["px"] * 2
     assert session["phase"] == 1 and session["can_grow"] and not session["can_map"]
 
 
@@ -68,12 +72,14 @@ def test_drawing_understanding_verdict_imitation_learning(client, session):
         assert verdict["seen"][0]["share"] > 0.9 and not verdict["claim"]["made"]
         assert len(verdict["path"]) == len(verdict["drawn"]) and len(verdict["next"]) == 14
         assert noted["notebook"][-1]["motion"] == "UR ←" and noted["shown"] == verdict["entry"]
+        assert noted["watched"] == verdict["drawn"], "a page that comes later can show it again"
         assert len(noted["notebook"]) == len(before["notebook"]) + 1
 
         own.say({"type": "imitate"})
         performed = own.hear("performed")
         assert performed["pushes"] == [] and performed["advice"] == "learn"
         assert performed["sentence"].startswith("It missed by")
+        assert performed["begins"] == [0.0] and len(performed["path"]) == len(verdict["drawn"])
         frames = [m for m in own.heard if m["type"] == "frames"]
         count = sum(len(m["poses"]) for m in frames)
         assert count == 2 * len(verdict["drawn"]) - 1 and frames[-1]["last"]
@@ -82,13 +88,32 @@ def test_drawing_understanding_verdict_imitation_learning(client, session):
 
         own.say({"type": "learn"})
         learned = own.hear("learned")
-        assert learned["entry"] == verdict["entry"] and learned["curve"]["n"] >= 1
+        assert learned["entry"] == verdict["entry"] and learned["motion"] == "UR ←"
+        practices = [m for m in own.heard if m["type"] == "practice"]
+        assert [m["attempt"] for m in practices] == list(range(practices[0]["of"] + 1))
+        assert [m["error_cm"] for m in practices] == learned["tries"]
+        assert all(set(m["film"]) >= {"poses", "actual", "commanded"} for m in practices)
+        assert len(practices[0]["film"]["poses"]) == count
+        assert learned["after_cm"] == learned["tries"][learned["kept"]]
+        assert "cm" in learned["sentence"]
+        assert not learned["claim"]["made"] and "my last try" in learned["claim"]["sentence"]
         progress = [m for m in own.heard if m["type"] == "progress"]
         assert [m["done"] for m in progress] == list(range(5, progress[0]["of"] + 1, 5))
-        assert idle(own)["notebook"][-1]["learned"]
+        after = idle(own)
+        assert after["notebook"][-1]["learned"] == bool(learned["kept"])
+        (curve,) = [c for c in after["curves"] if c["motion"] == "UR ←"]
+        assert curve["points"][-1]["error_cm"] == learned["after_cm"]
+
+        own.say({"type": "replay", "entry": verdict["entry"]})
+        replayed = own.hear("replayed")
+        assert replayed["error_cm"] == learned["after_cm"]
+        assert replayed["sentence"].startswith("It missed by") and replayed["advice"] == "learn"
+        kept = practices[learned["kept"]]
+        assert {**kept, "type": "replayed"}["film"] == replayed["film"], "what it can do now"
+        idle(own)
     with page(client) as reloaded:
         found = reloaded.hear("session")
-        assert found["notebook"][-1]["learned"] and found["shown"] == verdict["entry"]
+        assert found["notebook"] == after["notebook"] and found["shown"] == verdict["entry"]
     exported = client.get("/export.npz")
     assert "attachment" in exported.headers["content-disposition"]
     (session / "got.npz").write_bytes(exported.content)
@@ -154,9 +179,14 @@ def test_undo_and_growth_and_the_map(client):
         assert number not in [e["entry"] for e in idle(own)["notebook"]]
         own.say({"type": "map"})
         assert own.hear("told", where=lambda m: "no slow level" in m["sentence"])
+        show(own, "UR ↓")
+        own.say({"type": "learn"})
+        own.hear("learned")
+        idle(own)
         own.say({"type": "grow"})
         grown = own.hear("grown")
-        assert grown["levels"] == ["io", "cf", "cs"] and len(grown["before"]) == len(grown["after"])
+        assert grown["levels"] == ["io", "cf", "cs"]
+        assert "UR ↓" in [change["motion"] for change in grown["changes"]] and grown["sentence"]
         assert idle(own)["phase"] == 2
         own.say({"type": "map"})
         drawn = own.hear("map")

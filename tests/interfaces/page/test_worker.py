@@ -1,18 +1,22 @@
 """The robot's process: killed and restarted, refused, and the command that serves it."""
 
+import io
 import json
 import os
 import signal
 import time
 import urllib.request
+import webbrowser
 
 import pytest
 from drawn import strokes
 from pages import page, served
+from rich.console import Console
 
-from motionese.errors import StorageError
+from motionese.errors import SettingError, StorageError
 from motionese.imitation import Scene
 from motionese.interfaces.page.robot import Robot
+from motionese.interfaces.page.server import teach
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
 from motionese.teaching.session_folder import SessionFolder
@@ -72,6 +76,33 @@ def test_learning_is_stopped_without_a_trace(session, draw_with):
     robot.go_on()
     robot.take({"type": "stop"})
     assert robot.going is None, "a performance ends at once"
+
+
+def test_growth_of_what_knows_nothing_is_answered_in_plain_words(session):
+    folder, told = SessionFolder(session), []
+    robot = Robot(folder, folder.read(), told.append, stop_asked=lambda: False)
+    robot.take({"type": "grow"})
+    while robot.going is not None:
+        robot.go_on()
+    assert "First show me a motion" in next(m["sentence"] for m in told if m["type"] == "told")
+    assert told[-1]["type"] == "session" and told[-1]["phase"] == 1
+
+
+def test_no_browser_is_opened_before_it_is_known_what_to_teach(tmp_path, monkeypatch):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    quiet = Console(file=io.StringIO())
+    with pytest.raises(SettingError, match="no run folder"):
+        teach(
+            quiet,
+            begin="nowhere",
+            session=tmp_path / "session",
+            host="127.0.0.1",
+            port=0,
+            token="",
+            browser=True,
+        )
+    assert opened == []
 
 
 def test_a_full_disk_is_told_and_the_robot_goes_on(session, draw_with, monkeypatch):

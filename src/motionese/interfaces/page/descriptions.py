@@ -15,11 +15,15 @@ from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
+from motionese.teaching.claim import Claim
 from motionese.teaching.frames import Film
 from motionese.teaching.interactive_map import InteractiveMap
-from motionese.teaching.notebook import Entry
+from motionese.teaching.lesson import Lesson, growth_in_words
+from motionese.teaching.notebook import Change, Entry, Notebook
 from motionese.teaching.online_recogniser import Understanding
-from motionese.teaching.session import Change, Observation, Teaching, Trial
+from motionese.teaching.result import Result
+from motionese.teaching.session import Observation, Teaching
+from motionese.teaching.trial import Trial
 from motionese.teaching.view import ASPECT, View
 
 DIGITS = 4
@@ -46,6 +50,7 @@ def scene_message(scene: Scene, view: View, geometry: Geometry) -> Answer:
             "pose": listed(geometry.placed(body.pose()[None]).ravel()),
             "joints": body.joints,
         },
+        "channels": [{"name": c.name, "unit": c.unit} for c in body.channels],
         "task": _task(task, view),
         "levels": [
             {"name": level.name, "size": level.size, "tau": level.tau}
@@ -84,10 +89,11 @@ def _task(task: Task, view: View) -> Answer:
     }
 
 
-def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Answer:
-    """Return where the session stands."""
+def session_message(teaching: Teaching, view: View, name: str, began: str, busy: str) -> Answer:
+    """Return where the session stands, in which what was shown last is seen as in a view."""
     notebook, levels = teaching.notebook, teaching.learner.network.levels
-    learned = {each.entry for each in notebook.learned}
+    learned = {each.entry for each in notebook.learned if each.kept}
+    observed = teaching.observed
     entries = [
         {
             "entry": entry.number,
@@ -101,7 +107,7 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
     suggestion = ""
     if teaching.should_grow:
         suggestion = (
-            f"Learning has settled (the last error was {notebook.curve[-1]:.1f} cm): let the "
+            f"Learning has settled (the last error was {_last_error(notebook):.1f} cm): let the "
             "network grow a slow level, and show sequences."
         )
     return {
@@ -111,33 +117,51 @@ def session_message(teaching: Teaching, name: str, began: str, busy: str) -> Ans
         "phase": len(levels) - 1,
         "levels": [level.name for level in levels],
         "notebook": entries,
-        "curve": [{"n": n, "error_cm": round(e, 2)} for n, e in enumerate(notebook.curve, 1)],
+        **_curves(teaching),
         "can_grow": teaching.can_grow,
         "can_map": InteractiveMap.possible(teaching),
-        "shown": teaching.observed.entry.number if teaching.observed else None,
+        "shown": observed.entry.number if observed else None,
+        "watched": listed(view.of_points(observed.watched.path)) if observed else [],
         "suggest": suggestion,
         "busy": busy,
     }
 
 
+def _last_error(notebook: Notebook) -> float:
+    """Return the error of the last lesson [cm]."""
+    return next(e.changes[0].after_cm for e in reversed(notebook.learned) if e.entry)
+
+
+def _curves(teaching: Teaching) -> Answer:
+    """Return the curve of every motion that is known, and after how much learning levels opened."""
+    notebook = teaching.notebook
+    known = {*notebook.taught(), *(e.motion for e in teaching.learner.experiences)}
+    return {
+        "curves": [
+            {
+                "motion": motion,
+                "points": [
+                    {"n": p.after, "error_cm": round(p.error_cm, 2), "practised": p.practised}
+                    for p in points
+                ],
+            }
+            for motion, points in notebook.curves.items()
+            if motion in known
+        ],
+        "grown": [n for n, each in enumerate(notebook.learned, 1) if not each.entry],
+    }
+
+
 def verdict_message(observed: Observation, view: View, seconds: float) -> Answer:
     """Return the verdict on a demonstration, `seconds` after it had ended."""
-    verdict, claim = observed.verdict, observed.verdict.claim
+    verdict = observed.verdict
     return {
         "type": "verdict",
         "entry": observed.entry.number,
         "motion": verdict.motion,
         "shown": verdict.sequence.name if verdict.sequence else "",
         "seen": _likeliest(verdict.seen),
-        "claim": {
-            "made": claim.made,
-            "sentence": claim.sentence,
-            "foretold_cm": round(claim.foretold_cm, 2),
-            "expected_cm": _known(claim.expected_cm),
-            "missed": list(claim.missed),
-            "like": claim.like,
-            "apart": _known(claim.apart),
-        },
+        "claim": _claim(verdict.claim),
         "path": listed(view.of_points(observed.interpretation.path)),
         "drawn": listed(view.of_points(observed.watched.path)),
         "next": listed(view.of_points(observed.interpretation.next)),
@@ -165,6 +189,18 @@ def understanding_message(
     }
 
 
+def _claim(claim: Claim) -> Answer:
+    return {
+        "made": claim.made,
+        "sentence": claim.sentence,
+        "foretold_cm": round(claim.foretold_cm, 2),
+        "expected_cm": _known(claim.expected_cm),
+        "missed": list(claim.missed),
+        "like": claim.like,
+        "apart": _known(claim.apart),
+    }
+
+
 def _likeliest(seen: Mapping[str, float]) -> list[Answer]:
     """Return the likeliest of what may have been shown."""
     return [{"motion": m, "share": round(s, DIGITS)} for m, s in [*seen.items()][:BARS]]
@@ -180,14 +216,25 @@ def shown_message(motion: str, seen: Float[ndarray, "T 2"], step_ms: float) -> A
     return {"type": "shown", "motion": motion, "path": path}
 
 
-def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -> Answer:
+def performed_message(
+    entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"], rate_hz: float
+) -> Answer:
     """Return how a performance went, its hand seen in the view."""
-    effects, result = trial.performance.effects.items(), trial.result
+    effects = trial.performance.effects.items()
     return {
         "type": "performed",
         "entry": entry.number,
-        "error_cm": round(trial.error_cm, 2),
         "effects": {name: round(float(values.max()), 1) for name, values in effects},
+        **_came_to(trial.result),
+        "attempt": len(entry.errors_cm),
+        "path": listed(seen),
+        "begins": _begins(entry, rate_hz),
+    }
+
+
+def _came_to(result: Result) -> Answer:
+    return {
+        "error_cm": round(result.error_cm, 2),
         "pushes": [
             {
                 "effect": push.effect,
@@ -201,9 +248,25 @@ def performed_message(entry: Entry, trial: Trial, seen: Float[ndarray, "T 2"]) -
         "good": result.good,
         "sentence": result.sentence,
         "advice": result.advice,
-        "attempt": len(entry.errors_cm),
-        "path": listed(seen),
     }
+
+
+def whole_film(played: Film, trial: Trial, entry: Entry, view: View, rate_hz: float) -> Answer:
+    """Return a try with its film, to be played at any speed: of `practice` and `replayed`."""
+    return {
+        "entry": entry.number,
+        "motion": entry.motion,
+        **_came_to(trial.result),
+        "path": listed(view.of_points(trial.performance.path)),
+        "drawn": listed(view.of_points(entry.demonstration.path)),
+        "begins": _begins(entry, rate_hz),
+        "film": {"rate_hz": played.rate_hz, **played.part(0, len(played))},
+    }
+
+
+def _begins(entry: Entry, rate_hz: float) -> list[float]:
+    """Return when [s] the primitives of what was shown begin, at the robot's tempo."""
+    return [round(row / rate_hz, DIGITS) for row in entry.demonstration.begins]
 
 
 def frames_message(played: Film, begin: int, end: int, last: bool) -> Answer:
@@ -221,14 +284,20 @@ def show_film(played: Film, tell: Tell) -> Iterator[float]:
         yield max(0.0, began + (row + size) / played.rate_hz - time.monotonic())
 
 
-def learned_message(entry: int, change: Change, curve: Sequence[float]) -> Answer:
-    """Return what a learning has brought."""
+def learned_message(lesson: Lesson) -> Answer:
+    """Return what a lesson has brought."""
+    taught = lesson.changes[0]
     return {
         "type": "learned",
-        "entry": entry,
-        "before_cm": round(change.before_cm, 2),
-        "after_cm": round(change.after_cm, 2),
-        "curve": {"n": len(curve), "error_cm": round(curve[-1], 2)},
+        "entry": lesson.entry,
+        "motion": taught.motion,
+        "before_cm": round(taught.before_cm, 2),
+        "after_cm": round(taught.after_cm, 2),
+        "tries": [round(error, 2) for error in lesson.errors_cm],
+        "kept": lesson.kept,
+        "changes": _changes(lesson.changes),
+        "sentence": lesson.sentence,
+        "claim": _claim(lesson.claim),
     }
 
 
@@ -236,10 +305,21 @@ def grown_message(changes: Sequence[Change], network: MTRNN) -> Answer:
     """Return what growth has brought: the same imitations before and after."""
     return {
         "type": "grown",
-        "before": [{"motion": c.motion, "cm": round(c.before_cm, 2)} for c in changes],
-        "after": [{"motion": c.motion, "cm": round(c.after_cm, 2)} for c in changes],
+        "changes": _changes(changes),
+        "sentence": growth_in_words(changes),
         "levels": [level.name for level in network.levels],
     }
+
+
+def _changes(changes: Sequence[Change]) -> list[Answer]:
+    return [
+        {
+            "motion": change.motion,
+            "before_cm": round(change.before_cm, 2),
+            "after_cm": round(change.after_cm, 2),
+        }
+        for change in changes
+    ]
 
 
 def progress_message(what: str, done: int, of: int, now: Progress) -> Answer:

@@ -60,10 +60,10 @@ class Demonstrate(Said):
     motion: Annotated[str, Field(max_length=32)]
 
 
-class Forget(Said):
-    """An entry of the notebook is to be undone."""
+class OfEntry(Said):
+    """An entry of the notebook is to be undone, or its last try to be seen again."""
 
-    type: Literal["forget"]
+    type: Literal["forget", "replay"]
     entry: Annotated[int, Field(ge=0, le=10**6)]
 
 
@@ -88,7 +88,7 @@ class Plain(Said):
     type: Literal["imitate", "learn", "grow", "map", "stop"]
 
 
-Message = Hello | Pen | Demonstrate | Forget | Hover | Begin | Plain
+Message = Hello | Pen | Demonstrate | OfEntry | Hover | Begin | Plain
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 
 

@@ -103,7 +103,8 @@ class Pen:
         """Tell the frames of the arm's motion that are new."""
         teaching = self._teaching
         network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
-        made = film(self._geometry, network, following.performance, rate_hz)
+        levels = dict(zip(network.names, network.sizes, strict=True))
+        made = film(self._geometry, levels, following.performance, rate_hz)
         begin, self._frames = self._frames, len(made)
         if begin < len(made):
             self._tell(frames_message(made, begin, len(made), last))

@@ -14,21 +14,23 @@ from motionese.experiment import read_settings
 from motionese.experiment.learned_robot import robot_of
 from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
-from motionese.interfaces.page.messages import Tell
+from motionese.interfaces.page.messages import Answer, Tell
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
 from motionese.teaching.drawing import DrawingError, most_rows
-from motionese.teaching.frames import film
+from motionese.teaching.frames import Film, film
 from motionese.teaching.interactive_map import InteractiveMap
-from motionese.teaching.notebook import Source
+from motionese.teaching.notebook import Entry, Source
 from motionese.teaching.practice import Report
-from motionese.teaching.session import Teaching
+from motionese.teaching.session import PRACTICE, Teaching
 from motionese.teaching.session_folder import FRESH, SessionFolder
+from motionese.teaching.trial import Trial
 from motionese.teaching.view import View
 
 T = TypeVar("T")
 GHOST_S = 0.2
 """While the scripted caregiver shows, what is understood is told this often."""
+NOT_THERE = "This entry is not in the notebook any more."
 NOTHING_SHOWN = "Show me a motion first: draw one, or let the caregiver show one."
 
 
@@ -86,7 +88,10 @@ class Robot:
         """Tell where the session stands."""
         self._busy = self._busy if busy is None else busy
         folder = self._folder
-        self._tell(descriptions.session_message(self.teaching, folder.id, folder.began, self._busy))
+        told = descriptions.session_message(
+            self.teaching, self._view, folder.id, folder.began, self._busy
+        )
+        self._tell(told)
 
     def take(self, message: dict[str, Any]) -> None:
         """Do what a message says, or begin to."""
@@ -107,6 +112,7 @@ class Robot:
                 "imitate": self._imitate,
                 "learn": self._learn,
                 "forget": self._forget,
+                "replay": self._replay,
                 "grow": self._grow,
                 "map": self._draw_map,
                 "begin": self._begin,
@@ -195,11 +201,10 @@ class Robot:
         trial = teaching.imitate()
         entry = teaching.observed.entry
         self._save()
-        network, rate_hz = teaching.learner.network, teaching.scene.body.rate_hz
-        played = film(self._geometry, network, trial.performance, rate_hz)
-        yield from descriptions.show_film(played, self._tell)
+        yield from descriptions.show_film(self._film(trial), self._tell)
         path = self._view.of_points(trial.performance.path)
-        self._tell(descriptions.performed_message(entry, trial, path))
+        rate_hz = teaching.scene.body.rate_hz
+        self._tell(descriptions.performed_message(entry, trial, path, rate_hz))
 
     def _learn(self, message: dict[str, Any]) -> Iterator[float]:
         observed = self.teaching.observed
@@ -208,9 +213,38 @@ class Robot:
             return
         self.tell_session("learning")
         yield 0.0
-        change = self._changed(self.teaching.learn, "learning")
-        curve = self.teaching.notebook.curve
-        self._tell(descriptions.learned_message(observed.entry.number, change, curve))
+        tries: list[Trial] = []
+
+        def tried(trial: Trial) -> None:
+            whole = self._whole_film(trial, observed.entry)
+            self._tell({"type": "practice", "attempt": len(tries), "of": PRACTICE, **whole})
+            tries.append(trial)
+
+        lesson = self._changed(lambda report: self.teaching.learn(report, tried), "learning")
+        self._tell(descriptions.learned_message(lesson))
+
+    def _replay(self, message: dict[str, Any]) -> Iterator[float]:
+        observed = self.teaching.look_back(message["entry"])
+        if observed is None:
+            self._hint(NOT_THERE)
+            return
+        entry = observed.entry
+        if entry.tried is None:
+            self._hint("I have not tried this yet: press Imitate to see me try.")
+        else:
+            whole = self._whole_film(entry.tried, entry)
+            self._tell({"type": "replayed", "attempt": len(entry.errors_cm), **whole})
+        self.tell_session()
+        yield 0.0
+
+    def _film(self, trial: Trial) -> Film:
+        rate_hz = self.teaching.scene.body.rate_hz
+        return film(self._geometry, trial.levels, trial.performance, rate_hz)
+
+    def _whole_film(self, trial: Trial, entry: Entry) -> Answer:
+        """Return a try as it is played: the film, its hand and what was shown in the view."""
+        played, view, rate_hz = self._film(trial), self._view, self.teaching.scene.body.rate_hz
+        return descriptions.whole_film(played, trial, entry, view, rate_hz)
 
     def _grow(self, message: dict[str, Any]) -> Iterator[float]:
         if not self.teaching.can_grow:
@@ -243,7 +277,7 @@ class Robot:
         said = self.teaching.forget(message["entry"], self._folder.learner)
         self._map = None
         self._save()
-        self._hint(said or "This entry is not in the notebook any more.")
+        self._hint(said or NOT_THERE)
         yield 0.0
 
     def _draw_map(self, message: dict[str, Any]) -> Iterator[float]:

@@ -11,7 +11,7 @@ from filelock import FileLock, Timeout
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, needs
-from motionese.interfaces.page.messages import MOST_BYTES
+from motionese.interfaces.page.messages import MOST_BYTES, Answer, Tell
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
 
@@ -46,8 +46,6 @@ def teach(
             console.print(f"Teach the robot at {address} (Ctrl-C ends; the session is kept)")
             if not is_local(host):
                 console.print("Other machines can reach it; what is said is not encrypted")
-            if browser:
-                webbrowser.open(address)
 
         reasons: list[str] = []
 
@@ -56,7 +54,18 @@ def teach(
             server.should_exit = True
 
         origin = Origin(begin, session)
-        hub = Hub(lambda told: Supervisor(origin, told), refused)
+        unopened = [address] if browser else []
+
+        def supervised(told: Tell) -> Supervisor:
+            def heard(message: Answer) -> None:
+                told(message)
+                # Not before it is known that there is a robot to be taught.
+                if message["type"] == "scene" and unopened:
+                    webbrowser.open(unopened.pop())
+
+            return Supervisor(origin, heard)
+
+        hub = Hub(supervised, refused)
         app = application(hub, admission, session, begun)
         config = uvicorn.Config(
             app,

@@ -1,4 +1,4 @@
-// What goes on inside: joint angles and the activity of the levels, scrolling; the learning curve.
+// What goes on inside: joint angles and the activity of the levels over time.
 
 import { colours, fitted, made, onScheme, titled } from "./dom.js";
 import uPlot from "./vendor/uplot.js";
@@ -9,6 +9,11 @@ const DEGREES = 180 / Math.PI;
 /** Levels of more units are shown as heat. */
 const MOST_LINES = 8;
 const LETTERS = "abcdef";
+/** Steps of the time axis [s]. */
+const SECONDS = [0.5, 1, 2, 5];
+const inSeconds = (value) => `${value} s`;
+/** Heat is drawn where lines are: beside their numbers, above the time. */
+const [BESIDE, ABOVE, RIM] = [30, 17, 4];
 
 const font = () => `11px ${getComputedStyle(document.body).fontFamily}`;
 
@@ -21,11 +26,35 @@ class Lines {
     onScheme(() => this.#build());
   }
 
-  show(data, end) {
-    this.data = data;
-    this.end = end;
+  show(data, span, begins) {
+    Object.assign(this, { data, span, begins, cursor: null });
     this.plot.setData(data, false);
-    this.plot.setScale("x", { min: Math.max(end - SHOWN_S, 0), max: Math.max(end, SHOWN_S) });
+    this.plot.setScale("x", { min: span[0], max: span[1] });
+  }
+
+  /** Mark a time [s]. */
+  mark(time) {
+    this.cursor = time;
+    this.plot.redraw(false);
+  }
+
+  /** Draw where primitives begin, and the time that is shown. */
+  #times({ ctx: context, bbox, valToPos }) {
+    const c = colours();
+    const lines = (this.begins ?? []).slice(1).map((time) => [time, c.soft, [3, 3]]);
+    if (this.cursor !== null) lines.push([this.cursor, c.ink, []]);
+    context.save();
+    context.lineWidth = devicePixelRatio;
+    for (const [time, colour, dash] of lines) {
+      const x = valToPos(time, "x", true);
+      context.strokeStyle = colour;
+      context.setLineDash(dash.map((length) => length * devicePixelRatio));
+      context.beginPath();
+      context.moveTo(x, bbox.top);
+      context.lineTo(x, bbox.top + bbox.height);
+      context.stroke();
+    }
+    context.restore();
   }
 
   #extent() {
@@ -41,6 +70,7 @@ class Lines {
       {
         ...this.#extent(),
         legend: { show: false },
+        hooks: { draw: [(plot) => this.#times(plot)] },
         cursor: { show: false },
         padding: [6, 4, 0, 0],
         scales: {
@@ -48,7 +78,13 @@ class Lines {
           y: { range: this.range },
         },
         axes: [
-          { ...axis, show: false },
+          {
+            ...axis,
+            size: 17,
+            space: 44,
+            incrs: SECONDS,
+            values: (_, values) => values.map(inSeconds),
+          },
           {
             ...axis,
             size: this.size,
@@ -65,8 +101,11 @@ class Lines {
       this.data ?? Array.from({ length: this.series(c).length + 1 }, () => []),
       this.place,
     );
-    if (this.data) this.show(this.data, this.end);
-    else this.plot.setScale("x", { min: 0, max: SHOWN_S });
+    if (this.data) {
+      const { data, span, begins, cursor } = this;
+      this.show(data, span, begins);
+      this.mark(cursor);
+    } else this.plot.setScale("x", { min: 0, max: SHOWN_S });
   }
 }
 
@@ -76,32 +115,58 @@ class Heat {
     this.canvas = made("canvas", "", [], { role: "img", "aria-label": label });
     place.append(this.canvas);
     place.classList.add("heat");
-    this.show([[]], 0);
-    new ResizeObserver(() => this.show(this.data, this.end)).observe(this.canvas);
-    onScheme(() => this.show(this.data, this.end));
+    this.show([[]], [0, SHOWN_S]);
+    new ResizeObserver(() => this.#draw()).observe(this.canvas);
+    onScheme(() => this.#draw());
   }
 
-  show(data, end) {
-    Object.assign(this, { data, end });
-    const { context, width, height } = fitted(this.canvas);
-    const c = colours();
+  show(data, span, begins) {
+    Object.assign(this, { data, span, begins, cursor: null });
+    this.#draw();
+  }
+
+  /** Mark a time [s]. */
+  mark(time) {
+    this.cursor = time;
+    this.#draw();
+  }
+
+  #draw() {
+    const { context, width: whole, height: tall } = fitted(this.canvas);
+    const [width, height, c] = [whole - BESIDE - RIM, tall - ABOVE, colours()];
+    const [from, to] = this.span;
+    const x = (time) => BESIDE + ((time - from) / (to - from)) * width;
+    context.clearRect(0, 0, whole, tall);
     context.fillStyle = c.band;
-    context.fillRect(0, 0, width, height);
-    const [times, ...units] = data;
-    if (times.length < 2) return;
-    const from = Math.max(end - SHOWN_S, 0);
-    const wide = ((times[1] - times[0]) / SHOWN_S) * width;
-    const tall = height / units.length;
+    context.fillRect(BESIDE, 0, width, height);
+    const [times, ...units] = this.data;
+    const wide = times.length > 1 ? x(times[1]) - x(times[0]) : 0;
     context.fillStyle = c.blue;
     times.forEach((time, i) => {
-      if (time < from - 1) return;
-      const x = ((time - from) / SHOWN_S) * width;
+      if (time < from) return;
       units.forEach((unit, k) => {
         context.globalAlpha = Math.min(Math.max(unit[i], 0), 1);
-        context.fillRect(x, k * tall, wide + 0.5, tall);
+        const begin = Math.max(x(time) - wide / 2, BESIDE);
+        const end = Math.min(x(time) + wide / 2 + 0.5, BESIDE + width);
+        context.fillRect(begin, (k * height) / units.length, end - begin, height / units.length);
       });
     });
     context.globalAlpha = 1;
+    this.#times(context, x, height, c);
+  }
+
+  #times(context, x, height, c) {
+    const [from, to] = this.span;
+    Object.assign(context, { font: font(), fillStyle: c.soft, textAlign: "center" });
+    const step = SECONDS.find((each) => ((x(to) - x(from)) * each) / (to - from) >= 44) ?? 5;
+    for (let time = Math.ceil(from / step) * step; time <= to + 1e-6; time += step)
+      context.fillText(inSeconds(time), Math.min(x(time), x(to) - 8), height + 13);
+    const lines = (this.begins ?? []).slice(1).map((time) => [time, c.soft]);
+    if (this.cursor !== null) lines.push([this.cursor, c.ink]);
+    for (const [time, colour] of lines) {
+      context.fillStyle = colour;
+      context.fillRect(x(time) - 0.5, 0, 1, height);
+    }
   }
 }
 
@@ -114,16 +179,25 @@ export class Activity {
     this.clear();
   }
 
-  /** Make the charts of some joints and levels. */
-  build(joints, levels) {
+  /** Make the charts of some joints and levels; the channels are what IO is wired to. */
+  build(joints, levels, channels) {
     if (this.built === JSON.stringify([joints, levels])) return;
     this.built = JSON.stringify([joints, levels]);
     this.widths = { actual: joints.length, commanded: joints.length };
-    const keys = [...joints.map((joint, i) => made("i", `key ${LETTERS[i]}`, joint))];
+    const goal = made("i", "key dashed", "commanded");
+    // The unit is said once, after the last channel that has it.
+    const io = keys(
+      channels.map(({ name, unit }, i) =>
+        unit && channels[i + 1]?.unit !== unit ? `${name} [${unit}]` : name,
+      ),
+    );
     const figures = [
-      figure("joints", ["Arm ", ...keys.flatMap((key) => [key, " "]), made("i", "key dashed", "goal")]),
-      ...levels.map(({ name }, i) =>
-        figure(name, [`${titled(name)} `, made("small", "", role(i, levels.length))]),
+      figure("joints", ["Arm [°] ", ...keys(joints), goal]),
+      ...levels.map(({ name, size }, i) =>
+        figure(name, [
+          `${titled(name)} `,
+          ...(i ? [made("small", "", `${role(i, levels.length)}, ${size} units`)] : io),
+        ]),
       ),
     ];
     this.place.replaceChildren(...figures);
@@ -145,7 +219,10 @@ export class Activity {
       this.charts[name] =
         size > MOST_LINES
           ? new Heat(others[i], `Activity of the ${titled(name)} units over time`)
-          : new Lines(others[i], (c) => strokes(c, size), { range: [-0.05, 1.05], incrs: [0.5] });
+          : new Lines(others[i], (c) => strokes(c, size), {
+              range: [-0.05, 1.05],
+              incrs: [0.5, 1],
+            });
     });
     this.clear();
   }
@@ -153,7 +230,7 @@ export class Activity {
   clear() {
     this.rows = Object.fromEntries(Object.keys(this.widths ?? {}).map((name) => [name, []]));
     this.times = Object.fromEntries(Object.keys(this.rows).map((name) => [name, []]));
-    this.end = 0;
+    Object.assign(this, { end: 0, begins: null });
   }
 
   /** Take a chunk of `frames`; its rows lie evenly between its first pose and the next chunk. */
@@ -170,14 +247,27 @@ export class Activity {
     }
   }
 
-  /** Show everything up to a time [s]. */
+  /** Show everything up to a time [s]; of a whole film, where that is. */
   show(end) {
     this.end = end;
+    if (this.begins) Object.values(this.charts).forEach((chart) => chart.mark(end));
+    else this.#draw([Math.max(end - SHOWN_S, 0), Math.max(end, SHOWN_S)]);
+  }
+
+  /** Show all that was taken, whose primitives begin at these times [s]. */
+  whole(begins) {
+    this.begins = begins;
+    this.end = Infinity;
+    this.#draw([0, Math.max(...Object.values(this.times).flat(), 0.1)]);
+  }
+
+  #draw(span) {
     for (const [name, chart] of Object.entries(this.charts)) {
-      if (name !== "joints") chart.show(this.#until(name, 1), end);
+      if (name !== "joints") chart.show(this.#until(name, 1), span, this.begins);
     }
     const sensed = this.#until("actual", DEGREES);
-    this.charts.joints?.show([...sensed, ...this.#until("commanded", DEGREES).slice(1)], end);
+    const joints = [...sensed, ...this.#until("commanded", DEGREES).slice(1)];
+    this.charts.joints?.show(joints, span, this.begins);
   }
 
   #until(name, factor) {
@@ -196,6 +286,9 @@ const strokes = (c, count) =>
     return { stroke: paints[i % paints.length] };
   });
 
+/** Return names, each with the line it belongs to. */
+const keys = (names) => names.flatMap((name, i) => [made("i", `key ${LETTERS[i]}`, name), " "]);
+
 const figure = (name, caption) =>
   made("figure", "", [made("figcaption", "", caption), made("div")], {
     "data-testid": `chart-${name}`,
@@ -205,66 +298,4 @@ function role(index, count) {
   if (index === 0) return "input and output";
   if (index === 1) return "fast context";
   return index === count - 1 ? "slow context" : "context";
-}
-
-/** The learning curve: the mean error [cm] after every lesson. */
-export class Curve {
-  constructor(place) {
-    this.place = place;
-    this.points = [];
-    this.#build();
-    new ResizeObserver(() => this.plot.setSize(this.#extent())).observe(place);
-    onScheme(() => this.#build());
-  }
-
-  show(points) {
-    this.points = points;
-    this.plot.setData(this.#data());
-  }
-
-  #data() {
-    return [this.points.map((p) => p.n), this.points.map((p) => p.error_cm)];
-  }
-
-  #extent() {
-    return { width: this.place.clientWidth || 240, height: this.place.clientHeight || 220 };
-  }
-
-  #build() {
-    this.plot?.destroy();
-    const c = colours();
-    const axis = {
-      stroke: c.soft,
-      font: font(),
-      grid: { stroke: c.rule, width: 1 },
-      ticks: { show: false },
-    };
-    this.plot = new uPlot(
-      {
-        ...this.#extent(),
-        legend: { show: false },
-        cursor: { show: false },
-        padding: [8, 10, 0, 0],
-        scales: {
-          x: { time: false, range: (_, min, max) => [0, Math.max(max ?? 0, 5)] },
-          y: { range: (_, min, max) => [0, Math.max((max ?? 0) * 1.15, 2)] },
-        },
-        axes: [
-          {
-            ...axis,
-            size: 26,
-            label: "lessons",
-            labelSize: 20,
-            labelGap: 0,
-            labelFont: font(),
-            incrs: [1, 2, 5, 10, 20, 50],
-          },
-          { ...axis, size: 34, label: "error [cm]", labelSize: 18, labelFont: font() },
-        ],
-        series: [{}, { stroke: c.blue, width: 2.2, points: { show: true, size: 7, fill: c.blue } }],
-      },
-      this.#data(),
-      this.place,
-    );
-  }
 }

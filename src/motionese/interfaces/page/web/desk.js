@@ -1,6 +1,6 @@
 // The desk around the view: the one line, buttons and what they do, and passing messages.
 
-import { made, part, say } from "./dom.js";
+import { allow, allowed, made, part, say } from "./dom.js";
 import { guide } from "./guide.js";
 import { showNetwork } from "./network.js";
 import { read } from "./task.js";
@@ -10,12 +10,12 @@ const TOAST_MS = 7000;
 const LONG = ["learning", "growing"];
 const PHASES = { 1: "Phase 1: single strokes", 2: "Phase 2: sequences" };
 
-/** Let every button do what it is for; `touched()` is called before. */
-export function furnish(send, touched, takeOver) {
+/** Let every button do what it is for; `touched()` is called before, `seen()` where one must look. */
+export function furnish(send, touched, seen, takeOver) {
   const pressed = {
     demonstrate: () => send({ type: "demonstrate", motion: part("motions").value }),
-    imitate: () => send({ type: "imitate" }),
-    learn: () => send({ type: "learn" }),
+    imitate: () => send({ type: "imitate" }) && seen(),
+    learn: () => send({ type: "learn" }) && seen(),
     grow: () => send({ type: "grow" }),
     "map-draw": () => send({ type: "map" }),
     stop: () => send({ type: "stop" }),
@@ -24,6 +24,7 @@ export function furnish(send, touched, takeOver) {
   };
   for (const [id, act] of Object.entries(pressed)) {
     part(id).addEventListener("click", () => {
+      if (!allowed(part(id))) return;
       touched();
       act();
     });
@@ -60,7 +61,6 @@ export function tidy(now) {
   say(part("network-note"), session.suggest || "Levels, from fast to slow.");
   const free = now.ready && !session.busy && !now.drawing;
   const enabled = {
-    motions: free,
     demonstrate: free,
     begin: free,
     webcam: now.watching,
@@ -71,17 +71,33 @@ export function tidy(now) {
     "map-draw": free && session.can_map,
     stop: Boolean(session.busy),
   };
-  for (const [id, on] of Object.entries(enabled)) part(id).disabled = !on;
-  const { advice } = { judged: now.verdict, performed: now.performed }[now.step] ?? {};
+  for (const [id, on] of Object.entries(enabled)) allow(part(id), on);
+  part("motions").disabled = !free;
+  const advising = { judged: now.verdict, performed: now.performed, replayed: now.replayed };
+  const { advice } = advising[now.step] ?? {};
   part("imitate").classList.toggle("next", advice === "imitate");
   part("learn").classList.toggle("next", advice === "learn");
   part("grow").classList.toggle("next", Boolean(session.suggest));
-  part("progress").classList.toggle("on", LONG.includes(session.busy));
+  const isLong = LONG.includes(session.busy);
+  // A button that goes does not take the focus with it.
+  if (!isLong && document.activeElement === part("stop")) part("learn").focus();
+  part("progress").classList.toggle("on", isLong);
+  part("skip").hidden = !now.practising;
+  say(part("origin"), origin(session.began));
   for (const line of part("legend").children) line.hidden = !now.lines[line.className];
   part("legend").hidden = !Object.values(now.lines).some(Boolean);
   part("notebook-empty").hidden = session.notebook.length > 0;
   offerExport(session.notebook.length > 0);
-  if (scene) showNetwork(part("network"), scene.levels, session.levels);
+  if (scene) showNetwork(part("network"), scene.levels, session.levels, scene.channels);
+}
+
+/** Return which robot this is. */
+function origin(began) {
+  if (!began) return "";
+  return (
+    { babbling: "A robot that began by babbling", fresh: "A newborn robot" }[began] ??
+    `Robot of ${began}`
+  );
 }
 
 /** A link without an address can be neither pressed nor reached by keys. */

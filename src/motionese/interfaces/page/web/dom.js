@@ -12,6 +12,14 @@ export function made(tag, name = "", content = [], attributes = {}) {
   return element;
 }
 
+/** Return a new element of an SVG. */
+export function shape(tag, attributes, text = "") {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  if (text) element.textContent = text;
+  return element;
+}
+
 /** Set a text only where it changes, so that a live region is not read out twice. */
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
@@ -54,6 +62,14 @@ export const isDark = () => dark.matches;
 
 /** Whether the visitor wants things not to move by themselves. */
 export const prefersStillness = () => still.matches;
+
+/** Let a button be pressed or not; one that may not keeps the focus that it has. */
+export function allow(button, on) {
+  button.setAttribute("aria-disabled", String(!on));
+}
+
+/** Whether a button may be pressed now. */
+export const allowed = (button) => button.getAttribute("aria-disabled") !== "true";
 
 /** Call when the scheme changes between light and dark. */
 export const onScheme = (changed) => dark.addEventListener("change", changed);

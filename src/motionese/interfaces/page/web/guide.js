@@ -5,15 +5,12 @@ import { primitivesOf, read } from "./task.js";
 const BUSY = {
   recognising: "It is thinking about what it saw …",
   performing: "Watch it try.",
-  learning: "It is practising what it did. This takes a moment.",
+  learning: "It is practising: watch every try; the first one stays as a ghost.",
   growing: "A slow level is growing.",
   demonstrating: "Watch the red hand: the robot is watching it, too.",
   "drawing the map": "It is trying out every slow state.",
   "beginning anew": "A new robot is babbling: it moves its arm and sees what comes of it.",
 };
-
-/** An imitation that misses by less is good: the hand of a person who shows it is no steadier. */
-const WELL_CM = 2;
 
 const KEYS = {
   choosing: "Arrow keys choose the place to start from. Space begins.",
@@ -46,8 +43,11 @@ export function guide(now) {
     const learn = performed.advice === "learn" ? " Press Learn this to let it practise." : "";
     return `${performed.sentence}${learn || ` ${invitation(next, false, true)}`}`;
   }
+  if (step === "replayed") return replayed(now.replayed);
+  if (step === "grown") return now.grown.sentence;
+  if (step === "learned" && !suggest) return `${learned.sentence} ${invitation(next, false, true)}`;
+  if (step === "learned") return `${learned.sentence} ${suggest}`;
   if (suggest) return suggest;
-  if (step === "learned") return `${outcome(learned)} ${invitation(next, false, true)}`;
   return invitation(next, now.first);
 }
 
@@ -55,10 +55,5 @@ const ADVICE = { imitate: "Press Imitate to see it try.", learn: "Press Learn th
 
 const judged = ({ sentence, advice }) => `“${sentence}” ${ADVICE[advice]}`;
 
-function outcome({ before_cm: before, after_cm: after }) {
-  if (after < before) return `Its error fell from ${before.toFixed(1)} to ${cm(after)}.`;
-  if (after < WELL_CM) return `Its error is ${cm(after)}: it does this well.`;
-  return `Its error is ${cm(after)}; more examples will help.`;
-}
-
-const cm = (value) => `${value.toFixed(1)} cm`;
+const replayed = ({ attempt, sentence, advice }) =>
+  `Here is its try ${attempt} again. ${sentence}${advice === "learn" ? " Press Learn this to let it practise." : ""}`;

@@ -1,19 +1,28 @@
 // The page: what arrives goes to the parts that show it, what a person does goes to the robot.
 
 import { showBelief } from "./belief.js";
-import { Curve } from "./charts.js";
+import { showCurves } from "./curves.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
-import { onScheme, part, say } from "./dom.js";
+import { onScheme, part, prefersStillness, say } from "./dom.js";
 import { Ghost } from "./ghost.js";
+import { Lesson } from "./lesson.js";
 import { Live } from "./live.js";
 import { SlowMap } from "./map.js";
 import { showGrown, showNotebook } from "./notebook.js";
 import { pathAlong } from "./paths.js";
+import { Playback } from "./playback.js";
 import { Pace } from "./playing.js";
 import { Showing } from "./showing.js";
 import { Stage } from "./stage.js";
 import { primitivesOf, read, takeTask, task } from "./task.js";
-import { clearVerdict, showResult, showUnderstanding, showVerdict } from "./verdict.js";
+import {
+  clearVerdict,
+  showClaim,
+  showMotion,
+  showResult,
+  showUnderstanding,
+  showVerdict,
+} from "./verdict.js";
 import { View } from "./view.js";
 
 const now = {
@@ -24,7 +33,9 @@ const now = {
   session: {
     id: "",
     notebook: [],
-    curve: [],
+    curves: [],
+    began: "",
+    watched: [],
     phase: 1,
     levels: [],
     busy: "",
@@ -37,6 +48,9 @@ const now = {
   verdict: null,
   performed: null,
   learned: null,
+  replayed: null,
+  grown: null,
+  awaited: false,
   touched: false,
   pending: null,
   understandings: 0,
@@ -48,7 +62,14 @@ const ghost = new Ghost(view, new Pace(24));
 const stage = new Stage(() => view.refresh());
 /** Whether the robot's arm follows the pen. */
 const follows = () => part("follow").checked;
-const curve = new Curve(part("chart-curve"));
+const playback = new Playback(stage, view, () => refresh());
+const lesson = new Lesson(playback, (learned) => {
+  Object.assign(now, { learned, step: "learned" });
+  showMotion(learned.motion);
+  showClaim(learned.claim);
+  say(part("attempt"), `${learned.motion}: ${learned.after_cm.toFixed(1)} cm off`);
+  refresh();
+});
 const map = new SlowMap(
   part("map"),
   part("map-primitive"),
@@ -85,8 +106,14 @@ const heard = {
   session(message) {
     if (message.id !== now.session.id) beginAnew();
     now.session = message;
-    curve.show(message.curve);
-    showNotebook(part("notebook"), message.notebook, (entry) => send({ type: "forget", entry }));
+    showCurves(part("chart-curve"), message.curves, message.grown);
+    showNotebook(
+      part("notebook"),
+      message.notebook,
+      (entry) => send({ type: "replay", entry }),
+      (entry) => send({ type: "forget", entry }),
+    );
+    if (!message.busy) lesson.stopped();
   },
   understanding(message) {
     now.understandings += 1;
@@ -105,24 +132,43 @@ const heard = {
   },
   verdict(message) {
     now.verdict = now.pending = message;
+    now.awaited = false;
     if (!ghost.plays) judge();
   },
   frames(message) {
+    if (message.from === 0) playback.close();
     stage.perform(message);
   },
   performed(message) {
     now.performed = message;
     now.step = "performed";
     showResult(message);
-    view.mark({ recognised: null, next: null, done: message.path });
+    view.mark({ recognised: null, next: null });
+    playback.load({ ...message, motion: motionOf(message.entry), film: stage.film });
     say(part("attempt"), `Attempt ${message.attempt}: ${message.error_cm.toFixed(1)} cm off`);
   },
   progress: showProgress,
+  practice(message) {
+    view.mark({ recognised: null, next: null });
+    lesson.take(message);
+  },
   learned(message) {
-    now.learned = message;
-    now.step = "learned";
+    lesson.learned(message);
+  },
+  replayed(message) {
+    clearResult();
+    Object.assign(now, { replayed: message, step: "replayed" });
+    showMotion(message.motion);
+    view.mark({ drawn: message.drawn });
+    const { attempt, error_cm: error, motion } = message;
+    say(part("attempt"), `${motion}, try ${attempt}: ${error.toFixed(1)} cm off`);
+    playback.load(message);
+    if (!prefersStillness()) playback.play(1);
+    toTheStage();
   },
   grown(message) {
+    Object.assign(now, { grown: message, step: "grown" });
+    showClaim(null);
     showGrown(part("grown"), message);
   },
   map(message) {
@@ -145,6 +191,7 @@ const heard = {
   },
   begun: beginAnew,
   told({ sentence }) {
+    now.awaited = false;
     tell(sentence);
   },
 };
@@ -167,6 +214,9 @@ function connectionChanged(state, reason) {
 
 /** Leave what was under way: the robot is not there to see it, or its end will not come. */
 function leave() {
+  now.awaited = false;
+  lesson.drop();
+  playback.stop();
   showing.drop();
   stage.stop();
   ghost.stop();
@@ -174,7 +224,7 @@ function leave() {
 
 /** Forget what was shown of another robot. */
 function beginAnew() {
-  Object.assign(now, { touched: false, learned: null });
+  Object.assign(now, { touched: false, learned: null, grown: null });
   clearResult();
   say(part("attempt"), "What the robot does");
   stage.clear();
@@ -189,6 +239,8 @@ function touched() {
 
 function clearResult() {
   Object.assign(now, { verdict: null, pending: null, performed: null, step: "" });
+  lesson.drop();
+  playback.close();
   clearVerdict();
   showBelief([]);
   view.clearInk();
@@ -212,6 +264,7 @@ function began() {
 }
 
 function ended() {
+  now.awaited = true;
   stage.hold(false);
   refresh();
 }
@@ -243,6 +296,26 @@ function nextMotion() {
   return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "";
 }
 
+const motionOf = (entry) => now.session.notebook.find((one) => one.entry === entry)?.motion ?? "";
+
+/** Show what the robot was shown last where nothing else is: that is what it would imitate. */
+function remember() {
+  const isIdle =
+    !showing.drawing && !ghost.plays && !now.awaited && !now.pending && !now.session.busy;
+  if (isIdle && !now.step && now.session.shown !== null && !view.marks.drawn?.length)
+    view.mark({ drawn: now.session.watched });
+}
+
+/** Bring the robot into the window where that is too low for it, as on a phone. */
+function toTheStage() {
+  const { top, bottom } = part("robot").getBoundingClientRect();
+  if (top >= 0 && bottom <= innerHeight) return;
+  part("stage").scrollIntoView({
+    behavior: prefersStillness() ? "auto" : "smooth",
+    block: "start",
+  });
+}
+
 function invite() {
   const isFirst = now.session.id && now.session.notebook.length === 0;
   const wanted = canWatch() && now.scene && isFirst && !now.touched && !now.session.busy;
@@ -254,6 +327,7 @@ function invite() {
 /** Bring everything that depends on the whole state up to date. */
 function refresh() {
   invite();
+  remember();
   tidy({
     ...now,
     ready: isReady(),
@@ -263,7 +337,9 @@ function refresh() {
       understood: view.marks.recognised?.length,
       next: view.marks.next?.length,
       done: view.marks.done?.length,
+      first: view.marks.first?.length,
     },
+    practising: lesson.plays,
     drawing: showing.drawing,
     webcam: showing.filmed,
     keyed: showing.keyed,
@@ -275,7 +351,7 @@ function refresh() {
   });
 }
 
-furnish(send, touched, () => live.greet(true));
+furnish(send, touched, toTheStage, () => live.greet(true));
 onScheme(() => view.refresh());
 live.connect();
 refresh();
@@ -297,6 +373,10 @@ window.teach = {
     performed: now.performed,
     learned: now.learned,
     drawn3d: Boolean(stage.robot),
+    tries: lesson.shown,
+    at: playback.at,
+    plays: playback.plays,
+    ghostly: Boolean(playback.first),
   }),
   /** Where a place [x, y] of the view lies in the window. */
   pixel(place) {

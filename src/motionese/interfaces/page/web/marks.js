@@ -37,6 +37,49 @@ function head(context, pixels, colour) {
   context.fill();
 }
 
+/** Chevrons that say which way a line goes: how far apart, how far beside it, how large [px]. */
+const [APART, BESIDE, SIZE] = [64, 13, 6];
+
+/**
+ * Say which way a line goes: chevrons on its right, so that a way down and one up again over it are
+ * told apart, and a disc where it begins.
+ */
+export function direction(context, pixels, { colour, rim }) {
+  if (pixels.length < 2) return;
+  disc(context, ...pixels[0], SIZE, rim);
+  disc(context, ...pixels[0], SIZE - 2, colour);
+  let left = APART / 2;
+  for (let i = 1; i < pixels.length; i += 1) {
+    const [[x, y], [ahead, below]] = [pixels[i - 1], pixels[i]];
+    const long = Math.hypot(ahead - x, below - y);
+    for (; left <= long; left += APART) {
+      const along = [(ahead - x) / long, (below - y) / long];
+      const at = [x + left * along[0] - BESIDE * along[1], y + left * along[1] + BESIDE * along[0]];
+      chevron(context, at, along, colour, rim);
+    }
+    left -= long;
+  }
+}
+
+function chevron(context, [x, y], [along, down], colour, rim) {
+  const wing = (side) => [
+    x - SIZE * along - side * SIZE * down,
+    y - SIZE * down + side * SIZE * along,
+  ];
+  context.lineCap = context.lineJoin = "round";
+  for (const [stroke, width] of [
+    [rim, 6],
+    [colour, 3],
+  ]) {
+    Object.assign(context, { strokeStyle: stroke, lineWidth: width });
+    context.beginPath();
+    context.moveTo(...wing(1));
+    context.lineTo(x, y);
+    context.lineTo(...wing(-1));
+    context.stroke();
+  }
+}
+
 /** Draw a place: a ring with its name, in the colour of what comes about there. */
 export function placeAt(context, view, name) {
   const { at } = task.places[name];
@@ -117,7 +160,8 @@ function limb(context, [from, to], width, colour) {
   context.stroke();
 }
 
-function disc(context, x, y, radius, colour) {
+/** Draw a disc at a pixel. */
+export function disc(context, x, y, radius, colour) {
   context.fillStyle = colour;
   context.beginPath();
   context.arc(x, y, radius, 0, 2 * Math.PI);

@@ -1,27 +1,21 @@
 // The network as levels, from fast to slow, with their sizes and time constants.
 
-import { titled } from "./dom.js";
+import { shape, titled } from "./dom.js";
 
-const SVG = "http://www.w3.org/2000/svg";
 const [ACROSS, STEP, FIRST] = [264, 62, 28];
 const UNITS_IN_A_ROW = 20;
-
-function shape(tag, attributes, text) {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  if (text) element.textContent = text;
-  return element;
-}
+const LINE = 16;
 
 let drawnAs = "";
 
-/** Show levels {name, size, tau}; those that are not open yet are outlines. */
-export function showNetwork(place, levels, open) {
+/** Show levels {name, size, tau}, those not open yet as outlines; channels are what IO is wired to. */
+export function showNetwork(place, levels, open, channels) {
   const wanted = JSON.stringify([levels, open]);
   if (wanted === drawnAs) return;
   drawnAs = wanted;
   const places = levels.length;
-  const tall = FIRST + STEP * (places - 1) + 38;
+  const wired = byUnit(channels);
+  const tall = FIRST + STEP * (places - 1) + 34 + LINE * wired.length;
   const said = levels.map(
     (l) =>
       `${titled(l.name)}, ${l.size} units, time constant ${told(l.tau)} steps` +
@@ -30,7 +24,7 @@ export function showNetwork(place, levels, open) {
   const svg = shape("svg", {
     viewBox: `0 0 ${ACROSS} ${tall}`,
     role: "img",
-    "aria-label": said.join("; "),
+    "aria-label": `${said.join("; ")}; input and output: ${wired.join("; ")}`,
   });
   const height = (index) => FIRST + STEP * (places - 1 - index);
   for (let i = 1; i < places; i += 1) {
@@ -49,7 +43,17 @@ export function showNetwork(place, levels, open) {
     if (i > 1 && i === places - 1) group.classList.add("slow");
     svg.append(group);
   });
+  wired.forEach((line, i) =>
+    svg.append(shape("text", { class: "tau", x: 0, y: height(0) + 14 + LINE * (i + 1) }, line)),
+  );
   place.replaceChildren(svg);
+}
+
+/** Return the channels in lines, a line a unit: "shoulder, armpit [rad]". */
+export function byUnit(channels) {
+  const lines = new Map();
+  for (const { name, unit } of channels) lines.set(unit, [...(lines.get(unit) ?? []), name]);
+  return [...lines].map(([unit, names]) => names.join(", ") + (unit ? ` [${unit}]` : ""));
 }
 
 function drawn(level, y, isOpen) {

@@ -15,6 +15,8 @@ import { bodiesOf } from "./shapes.js";
 const TARGET = new Vector3(0.3, -0.06, 0.99);
 /** Bodies that the eye's view leaves out: what is around it, and its own arm, which moves. */
 const NOT_SEEN = ["head", "arm"];
+/** How much of a ghost is seen, and how far from the robot it must be to be shown. */
+const [GHOSTLY, APART_M, APART_RAD] = [0.3, 0.002, 0.01];
 /** A cap pressed further than this [mm] gives light. */
 export const PRESSED_MM = 5;
 
@@ -58,15 +60,27 @@ export class Robot {
       .filter((body) => body.name === "caregiver")
       .forEach((body) => (body.visible = false));
     if (robot.pose) this.pose(robot.pose);
+    this.scene.remove(...(this.ghosts ?? []));
+    this.ghosts = this.bodies.map((body) => ghostOf(body));
+    this.scene.add(...this.ghosts);
     this.draw();
   }
 
   /** Place all bodies: x, y, z and the quaternion w, x, y, z of each, one after the other. */
   pose(flat) {
-    this.bodies.forEach((body, i) => {
-      const [x, y, z, qw, qx, qy, qz] = flat.slice(7 * i, 7 * i + 7);
-      body.position.set(x, y, z);
-      body.quaternion.set(qx, qy, qz, qw);
+    this.bodies.forEach((body, i) => place(body, flat, i));
+  }
+
+  /** Place a ghost where it is elsewhere than the robot; none for null. */
+  ghost(flat) {
+    this.ghosts?.forEach((body, i) => {
+      body.visible = Boolean(flat) && this.bodies[i].visible;
+      if (!body.visible) return;
+      place(body, flat, i);
+      const { position, quaternion } = this.bodies[i];
+      body.visible =
+        position.distanceTo(body.position) > APART_M ||
+        quaternion.angleTo(body.quaternion) > APART_RAD;
     });
   }
 
@@ -102,7 +116,10 @@ export class Robot {
     const [x, y, z] = [right, up, ahead.map((v) => -v)].map((axis) => new Vector3(...axis));
     eye.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(x, y, z));
     eye.position.set(...position);
-    const hidden = this.bodies.filter((body) => NOT_SEEN.includes(body.name));
+    const hidden = [
+      ...this.bodies.filter((body) => NOT_SEEN.includes(body.name)),
+      ...this.ghosts.filter((body) => body.visible),
+    ];
     hidden.forEach((body) => (body.visible = false));
     this.#render(eye, width, height);
     hidden.forEach((body) => (body.visible = true));
@@ -134,6 +151,24 @@ export class Robot {
       this.draw();
     });
   }
+}
+
+function place(body, flat, i) {
+  const [x, y, z, qw, qx, qy, qz] = flat.slice(7 * i, 7 * i + 7);
+  body.position.set(x, y, z);
+  body.quaternion.set(qx, qy, qz, qw);
+}
+
+/** Return a body as a ghost: its shapes, seen through. */
+function ghostOf(body) {
+  const ghost = body.clone();
+  ghost.visible = false;
+  ghost.traverse((part) => {
+    if (!part.material) return;
+    part.material = part.material.clone();
+    Object.assign(part.material, { transparent: true, opacity: GHOSTLY, depthWrite: false });
+  });
+  return ghost;
 }
 
 function standing(camera) {

@@ -1,7 +1,7 @@
 // All the ways in which a person shows a motion: pointer, keys, webcam. Each makes a stroke.
 
 import { composable } from "./compose.js";
-import { part, say } from "./dom.js";
+import { allowed, part, say } from "./dom.js";
 import { pathAlong, rowsUntil, waysThrough } from "./paths.js";
 import { drawable } from "./pen.js";
 import { Pace } from "./playing.js";
@@ -55,10 +55,12 @@ export class Showing {
       tell: to.tell,
     });
     this.webcam = new Webcam(part("webcam-picture"), (place, t) => this.#red(place, t));
-    part("webcam").addEventListener("click", () => this.#switched());
-    part("webcam-show").addEventListener("click", () =>
-      this.drawing ? this.#end() : this.#show(),
-    );
+    part("webcam").addEventListener("click", () => allowed(part("webcam")) && this.#switched());
+    part("webcam-show").addEventListener("click", () => {
+      if (!allowed(part("webcam-show"))) return;
+      if (this.drawing) this.#end();
+      else this.#show();
+    });
   }
 
   /** Whether a motion is being shown. */

@@ -4,6 +4,8 @@ import { Activity } from "./charts.js";
 import { made, onScheme, part } from "./dom.js";
 import { Pace, Player } from "./playing.js";
 
+/** What frames tell of the robot, a row a frame or fewer. */
+const COLUMNS = ["poses", "commanded", "actual", "effects"];
 /** Pictures a second where the processor draws them, and where a graphics card does. */
 const [SOFT_HZ, HARD_HZ] = [10, 24];
 
@@ -18,10 +20,10 @@ export class Stage {
   }
 
   /** Take the robot, the network's levels and the task's effects of a `scene`. */
-  take({ robot, levels, task: { effects } }) {
+  take({ robot, levels, channels, task: { effects } }) {
     this.model = robot;
     this.robot?.take(robot);
-    this.activity.build(robot.joints, levels);
+    this.activity.build(robot.joints, levels, channels);
     this.effects = effects.map(({ name }) => name);
     this.lights = effects.map(({ name, title }, i) =>
       made("li", `effect-${i}`, title, { "data-testid": `light-${name}` }),
@@ -33,15 +35,51 @@ export class Stage {
   /** Take a chunk of a performance. */
   perform(frames) {
     this.frames += frames.poses.length;
-    if (frames.from === 0) this.charted = -1;
-    this.depths = frames.from === 0 ? frames.effects : [...this.depths, ...frames.effects];
+    if (frames.from === 0) {
+      this.charted = -1;
+      this.film = { rate_hz: frames.rate_hz, activity: {} };
+      this.robot?.ghost(null);
+    }
+    append(this.film, frames, COLUMNS);
+    append(this.film.activity, frames.activity, Object.keys(frames.activity));
+    this.depths = this.film.effects;
     this.activity.take(frames);
     this.player.take(frames);
+  }
+
+  /** Take a whole film, to be shown at any time of it. */
+  whole(film, begins) {
+    this.player.stop();
+    Object.assign(this, { film, depths: film.effects, charted: -1 });
+    this.activity.take({ from: 0, ...film });
+    this.activity.whole(begins);
+  }
+
+  /** Take the film that is seen behind the other, or none. */
+  ghost(film) {
+    this.behind = film;
+    if (!film) this.robot?.ghost(null);
+  }
+
+  /** Show a moment [s] of the whole film. */
+  at(seconds) {
+    const { poses, rate_hz: rate } = this.film;
+    const row = Math.min(Math.round(seconds * rate), poses.length - 1);
+    const ghosts = this.behind?.poses;
+    this.robot?.pose(poses[row]);
+    this.robot?.ghost(ghosts ? ghosts[Math.min(row, ghosts.length - 1)] : null);
+    this.#show(row, poses, seconds);
+  }
+
+  /** Time between two pictures [ms]. */
+  get period() {
+    return this.player.pace.period;
   }
 
   /** Forget the performance that was shown last. */
   clear() {
     this.player.stop();
+    this.ghost(null);
     this.activity.clear();
     this.activity.show(0);
   }
@@ -86,9 +124,18 @@ export class Stage {
       this.robot.draw();
     }
     // Charts cost as much as the robot: half as often, and at the end.
-    if (row === poses.length - 1 || seconds - this.charted >= 0.2) {
+    if (
+      row === poses.length - 1 ||
+      Math.abs(seconds - this.charted) >= 0.2 ||
+      this.activity.begins
+    ) {
       this.charted = seconds;
       this.activity.show(seconds);
     }
   }
+}
+
+/** Append the rows of some columns. */
+function append(to, from, columns) {
+  for (const name of columns) to[name] = [...(to[name] ?? []), ...(from[name] ?? [])];
 }

@@ -5,9 +5,14 @@ import { made, part, say } from "./dom.js";
 
 /** Show what was seen {motion, share}, the likeliest first; it is named `motion` from now on. */
 function showSeen(seen, motion = seen[0]?.motion ?? "") {
+  showMotion(motion);
+  part("seen").replaceChildren(...seen.map(bar));
+}
+
+/** Show the motion that all this is about, or none. */
+export function showMotion(motion) {
   const shown = motion ? pictured(motion) : [made("span", "nothing", "nothing yet")];
   part("verdict-arrows").replaceChildren(...shown);
-  part("seen").replaceChildren(...seen.map(bar));
 }
 
 function bar({ motion, share }) {
@@ -18,8 +23,18 @@ function bar({ motion, share }) {
   ]);
 }
 
-/** Show whether the robot can do it, and what that is known by. */
-function showClaim(answer, why) {
+/** Show whether the robot says that it can do it, and what that is known by; null for nothing. */
+export function showClaim(claim) {
+  if (!claim) {
+    showAnswer("–", "");
+    return;
+  }
+  const { made: claims, foretold_cm: foretold, expected_cm: expected } = claim;
+  const expects = expected === null ? "" : `; expects to miss by ${cm(expected)}`;
+  showAnswer(claims ? "It says yes" : "Not yet", `Foretold the end to ${cm(foretold)}${expects}`);
+}
+
+function showAnswer(answer, why) {
   say(part("claim"), answer);
   say(part("claim-why"), why);
 }
@@ -29,7 +44,7 @@ export function showUnderstanding({ seen }) {
   part("verdict").classList.add("tentative");
   say(part("verdict-label"), "So far the robot sees");
   showSeen(seen);
-  showClaim("–", "");
+  showClaim(null);
 }
 
 /** Show a verdict, and speak it. */
@@ -37,9 +52,7 @@ export function showVerdict({ motion, seen, sentence, claim }) {
   part("verdict").classList.remove("tentative");
   say(part("verdict-label"), "The robot saw");
   showSeen(seen, motion);
-  const { made: claims, foretold_cm: foretold, expected_cm: expected } = claim;
-  const expects = expected === null ? "" : `; expects to miss by ${cm(expected)}`;
-  showClaim(claims ? "It says yes" : "Not yet", `Foretold the end to ${cm(foretold)}${expects}`);
+  showClaim(claim);
   say(part("verdict-spoken"), read(motion).start ? `${inWords(motion)}. ${sentence}` : sentence);
 }
 
@@ -47,7 +60,7 @@ export function showVerdict({ motion, seen, sentence, claim }) {
 export function showResult({ good, error_cm: error, pushes }) {
   const done = pushes.filter((push) => push.made).length;
   const pressed = pushes.length ? `, pressed ${done} of ${pushes.length}` : "";
-  showClaim(good ? "It did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
+  showAnswer(good ? "It did" : "Not yet", `Missed by ${cm(error)}${pressed}`);
 }
 
 /** Show that nothing is understood yet. */
@@ -56,7 +69,7 @@ export function clearVerdict() {
   say(part("verdict-label"), "The robot saw");
   say(part("verdict-spoken"), "");
   showSeen([]);
-  showClaim("–", "");
+  showClaim(null);
 }
 
 const cm = (value) => `${value.toFixed(1)} cm`;

@@ -1,7 +1,7 @@
 // The robot's eye view: what it sees, what is drawn over it, and what it makes of that.
 
 import { colours, fitted } from "./dom.js";
-import { flatGround, hand, line, placeAt } from "./marks.js";
+import { direction, disc, flatGround, hand, line, placeAt } from "./marks.js";
 import { task } from "./task.js";
 
 /** Width of what a person draws [px]: broad, so that what is recognised can be seen upon it. */
@@ -45,7 +45,7 @@ export class View {
     return [x * this.width, y * this.height];
   }
 
-  /** Show marks: recognised, next, drawn, done, hovered (paths), hand, prompt and plan (places). */
+  /** Show marks: paths, and the places of the hand and of the tip of what is done. */
   mark(marks) {
     Object.assign(this.marks, marks);
     this.pending ??= requestAnimationFrame(() => this.#marks());
@@ -91,7 +91,13 @@ export class View {
     });
     line(over, path(marks.recognised), { colour: c.blue, width: 4 });
     line(over, path(marks.next), { colour: c.blue, width: 4, dash: [9, 9], arrow: true });
+    line(over, path(marks.first), { colour: c.soft, width: 3, dash: [2, 7] });
+    over.globalAlpha = 0.35;
+    line(over, path(marks.rest), { colour: c.green, width: 4 });
+    over.globalAlpha = 1;
     line(over, path(marks.done), { colour: c.green, width: 4 });
+    direction(over, path(marks.drawn), { colour: c.ink, rim: c.card });
+    if (marks.tip) disc(over, ...this.pixel(marks.tip), 7, c.green);
     line(over, path(marks.hovered), { colour: c.pink, width: 5, rim: c.card, arrow: true });
     line(over, path(marks.promise), { colour: c.hand, width: 3, dash: [3, 9], arrow: true });
     line(over, path(marks.shown), { colour: c.hand, width: 4 });
