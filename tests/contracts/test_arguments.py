@@ -116,8 +116,8 @@ def functions(model, folder):
     }
 
 
-def test_what_is_not_taken_is_refused_by_a_sentence(model, tmp_path, unchecked, capfd, monkeypatch):
-    monkeypatch.chdir(tmp_path)  # for what takes a text as a path
+def test_what_is_not_taken_is_refused_by_a_sentence(model, tmp_path, unchecked, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     mo.save(tmp_path / "fit.safetensors", FIT)
     DATA.write(tmp_path / "data.npz")
     answered = {}

@@ -210,3 +210,26 @@ def test_what_does_not_fit_the_network_is_refused(network, fit, motions):
         train(network, motions, settings=settings(bound={"ccf": 1.0}))
     with pytest.raises(SettingError, match="epochs must be ≥ 1, got 0"):
         train(network, motions, epochs=0)
+
+
+def test_training_goes_on_from_a_fit(fit, motions):
+    others = motions.chosen(["c", "a"])
+    still = Training(epochs=1, weight_rate=0, initial_rate=0)
+    gone_on = train(fit, others, settings=still)
+
+    np.testing.assert_allclose(gone_on.initial_states, fit.initial_states[[2, 0]], atol=1e-6)
+    np.testing.assert_allclose(
+        gone_on.closed_loop_error, fit.closed_loop_error[[2, 0]], rtol=1e-3, atol=1e-5
+    )
+    unknown = replace(others, names=("c", "new"))
+    new = train(fit, unknown, settings=still).initial_states[1, fit.network.io_size :]
+    np.testing.assert_array_equal(new, 0)
+    with pytest.raises(SettingError, match="20 rows a second, the model was trained at 10"):
+        train(fit, replace(motions, rate_hz=20.0))
+
+
+def test_a_fit_after_another_has_the_losses_of_both(fit, motions):
+    both = train(fit, motions, epochs=3).after(fit)
+
+    assert len(both.losses) == len(fit.losses) + 3
+    assert both.status.sentence == "all 3 epochs done, after 2000 before"

@@ -4,7 +4,7 @@ import numpy as np
 import onnxruntime
 import pytest
 from small_models import nothing_learned
-from typed import NAMES, arm_motions, refused, typed
+from typed import CHANNELS, NAMES, arm_motions, refused, typed
 
 from motionese import Motions, load
 from motionese.learning import write_fit
@@ -44,7 +44,10 @@ def test_a_step_is_exported_and_agrees(arm):
     assert (status, errors) == (0, "")
     assert "arm.onnx: one step (x, u → y, u_next); differs from the network by at most" in output
     session = onnxruntime.InferenceSession("arm.onnx", providers=["CPUExecutionProvider"])
-    assert [i.name for i in session.get_inputs()] == ["x", "u"]
+    for leading in ((), (1,)):
+        given = {"x": (*leading, len(CHANNELS)), "u": (*leading, 17)}
+        fed = {name: np.full(shape, 0.5, np.float32) for name, shape in given.items()}
+        assert [out.shape for out in session.run(None, fed)] == list(given.values())
 
 
 def test_a_model_that_has_learned_nothing_yet_does_what_needs_no_motion(arm):

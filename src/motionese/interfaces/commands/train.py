@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import jax
+from jaxtyping import Array
 from rich.console import Console
 
 from motionese.errors import SettingError, StorageError, unknown
@@ -74,19 +75,8 @@ def train_model(
     checkpoint = _checkpoint(out, resume)
     check_apart([source, *([begin] if begin else [])], out, checkpoint)
     drawn, noise = jax.random.split(jax.random.key(seed))
-    network: MTRNN | Fit
-    if begin is None:
-        context, motions = (
-            read_levels(LEVELS if levels is None else levels),
-            Motions.read(source, **reading),
-        )
-        io = Level(len(motions.channels), IO_TAU if io_tau is None else io_tau)
-        network = MTRNN.draw([io, *context], key=drawn)
-    else:
-        network, motions = read_begun(begin, source, reading)
-        check_levels(
-            begin, network.network, io_tau, None if levels is None else read_levels(levels)
-        )
+    context = None if levels is None else read_levels(levels)
+    network, motions = _begun(begin, source, context, io_tau, reading, drawn)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
     origin = origin_of(network, learned, settings, unseen, noise)
     start = Start(network, settings, noise)
@@ -106,7 +96,7 @@ def train_model(
             numbers = {k: v for k, v in now._asdict().items() if v is not None and k != "epoch"}
             log.write(now.epoch, numbers)
 
-        fit = train(
+        trained = train(
             start.network,
             learned,
             settings=start.settings,
@@ -115,16 +105,34 @@ def train_model(
             progress=progress,
             checkpoint=checkpoint,
         )
-    shown = diagnose(fit, learned, settings.teacher_forcing)
-    fit = fit if start.earlier is None else fit.after(start.earlier)
+    fit = trained if start.earlier is None else trained.after(start.earlier)
     write_fit(out, fit, {}, {ORIGIN: origin})
     checkpoint.unlink(missing_ok=True)  # not before: what was learned is in one of the two files
     console.print(error_table(fit))
-    console.print(verdict(fit, shown))
+    console.print(verdict(fit, diagnose(trained, learned, settings.teacher_forcing)))
     console.print(f"{fit.status}. The model is {out}")
     if fit.status.failed:
         raise SettingError(f"{out}: {fit.status}; train with smaller rates, --set weight_rate=0.01")
     return fit
+
+
+def _begun(
+    begin: Path | None,
+    source: Path,
+    context: Sequence[Level] | None,
+    io_tau: float | None,
+    reading: Mapping[str, Any],
+    key: Array,
+) -> tuple[MTRNN | Fit, Motions]:
+    """Return a network that is drawn, or a model to begin from, and the motions that it learns."""
+    if begin is not None:
+        fit, motions = read_begun(begin, source, reading)
+        check_levels(begin, fit.network, io_tau, context)
+        return fit, motions
+    context = read_levels(LEVELS) if context is None else context
+    motions = Motions.read(source, **reading)
+    io = Level(len(motions.channels), IO_TAU if io_tau is None else io_tau)
+    return MTRNN.draw([io, *context], key=key), motions
 
 
 def _told(

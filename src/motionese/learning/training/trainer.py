@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
+from math import isclose
 
 import jax
 import jax.numpy as jnp
@@ -20,7 +21,7 @@ from motionese.learning.motions.motions import Motions
 from motionese.learning.objective import initial_potentials, with_shared_channels
 from motionese.learning.optimisers import training_rule
 from motionese.learning.parameters import Parameters, learned_by
-from motionese.learning.recognition.recognise import recognise_all
+from motionese.learning.recognition.recognise import SAME_RATE, recognise_all
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.training.epochs import Iterate, run_epochs
@@ -178,8 +179,14 @@ def make_trainer(
     settings = settings if epochs is None else settings.model_copy(update={"epochs": int(epochs)})
     if settings.epochs < 1:
         raise SettingError(f"epochs must be ≥ 1, got {settings.epochs}")
-    if initial_states is None and isinstance(network, Fit):
-        initial_states = network.states_of(motions.names)
+    if isinstance(network, Fit):
+        if not isclose(motions.rate_hz, network.rate_hz, rel_tol=SAME_RATE):
+            raise SettingError(
+                f"the motions have {motions.rate_hz:g} rows a second, "
+                f"the model was trained at {network.rate_hz:g}"
+            )
+        if initial_states is None:
+            initial_states = network.states_of(motions.names)
     network = network_of(network)
     network, motions = with_shared_channels(network, motions)
     if validation is not None:
