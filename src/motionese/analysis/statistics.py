@@ -60,16 +60,24 @@ def estimate(values: Float[ndarray, " n"], statistic: Callable[..., Any] = np.me
     value = float(statistic(kept))
     if len(kept) < FEWEST:
         return Estimate(value, math.nan, math.nan, len(kept))
-    # Percentile rather than BCa: with few or equal values BCa has no acceleration to estimate.
+    low, high = bootstrapped((kept,), statistic)
+    return Estimate(value, low, high, len(kept))
+
+
+def bootstrapped(samples: Sequence[Any], statistic: Callable[..., Any]) -> tuple[float, float]:
+    """Return the bootstrap interval of a statistic of samples that are drawn apart.
+
+    Percentile rather than BCa: with few or equal values BCa has no acceleration to estimate.
+    """
     interval = stats.bootstrap(
-        (kept,),
+        tuple(samples),
         statistic,
         n_resamples=RESAMPLES,
         confidence_level=1 - LEVEL,
         method="percentile",
         rng=np.random.default_rng(SEED),
     ).confidence_interval
-    return Estimate(value, float(interval.low), float(interval.high), len(kept))
+    return float(interval.low), float(interval.high)
 
 
 def contrast(differences: Float[ndarray, " n"], what: str) -> Contrast:

@@ -8,7 +8,7 @@ from jaxtyping import Float
 from numpy import ndarray
 from scipy import stats
 
-from motionese.analysis.statistics import FEWEST, LEVEL, RESAMPLES, SEED, Estimate, estimate
+from motionese.analysis.statistics import FEWEST, RESAMPLES, SEED, Estimate, bootstrapped, estimate
 
 
 class Difference(NamedTuple):
@@ -41,18 +41,10 @@ def difference(one: Float[ndarray, " n"], other: Float[ndarray, " m"]) -> Differ
     value = mean_a.value - mean_b.value
     if min(len(a), len(b)) < FEWEST:
         return Difference(mean_a, mean_b, value, nan, nan, nan, nan)
-    interval = stats.bootstrap(
-        (a, b),
-        _apart,
-        n_resamples=RESAMPLES,
-        confidence_level=1 - LEVEL,
-        method="percentile",
-        rng=np.random.default_rng(SEED),
-    ).confidence_interval
+    low, high = bootstrapped((a, b), _apart)
     permuted = stats.PermutationMethod(n_resamples=RESAMPLES, rng=np.random.default_rng(SEED))
     test = stats.mannwhitneyu(a, b, method=permuted)
     effect = 2 * float(test.statistic) / (len(a) * len(b)) - 1
-    low, high = float(interval.low), float(interval.high)
     return Difference(mean_a, mean_b, value, low, high, effect, float(test.pvalue))
 
 
