@@ -93,8 +93,9 @@ def at_one_rate(recording: Recording, choice: Choice) -> Recording:
     ready = [even(part, rate_of(part, choice.rate_hz)) for part in parts]
     if choice.resample_hz is not None:
         ready = [resampled(part, choice.resample_hz) for part in ready]
-    by_name = {e.name: e for part in ready for e in part.episodes}
-    episodes = tuple(by_name[e.name] for e in recording.episodes)
+    pairs = zip(parts, ready, strict=True)
+    made = {id(was): now for p, r in pairs for was, now in zip(p.episodes, r.episodes, strict=True)}
+    episodes = tuple(made[id(e)] for e in recording.episodes)
     return replace(recording, episodes=episodes, rate_hz=ready[0].rate_hz)
 
 
