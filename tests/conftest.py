@@ -28,7 +28,16 @@ jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
 
 MAPPED, MOST_MAPPINGS = Path("/proc/self/maps"), 20_000
 """A process on Linux has at most 65,530 mappings, and every compiled function takes a few."""
-COMPILING = ("analysis", "contracts", "learning", "network", "runtime")
+COMPILING = (
+    "analysis",
+    "contracts",
+    "experiment",
+    "imitation",
+    "learning",
+    "network",
+    "roles",
+    "runtime",
+)
 """Folders whose tests compile far longer than they compute: little is optimised there."""
 
 settings.register_profile(
