@@ -189,7 +189,9 @@ def test_what_cannot_be_read_changes_nothing(school, packed, tmp_path):
     rezipped(packed, lambda files: files.pop("robot-2/shown-0001.npz"))
     before = {name: (school.home / name).read_bytes() for name in contents(school.home)}
     unpack(packed, school.home / ".opened-1")
-    with pytest.raises(StorageError, match=r"shown-0001\.npz cannot be read"):
+    with pytest.raises(
+        StorageError, match=r"session cannot be opened: robot-2/shown-0001\.npz cannot be read"
+    ):
         exchange(school, school.home / ".opened-1")
     after = {name: (school.home / name).read_bytes() for name in contents(school.home)}
     assert after == before and not list(school.home.glob("earlier-*"))

@@ -15,7 +15,7 @@ from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
 
 from motionese.errors import StorageError
 from motionese.files import write_whole
-from motionese.teaching.session_contents import SESSION, belongs, contents
+from motionese.teaching.session_contents import PLACES, SESSION, belongs, contents
 
 SUFFIX = ".motionese"
 MANIFEST, FORMAT, VERSION = "school.json", "motionese-school", 1
@@ -74,7 +74,7 @@ def taught_of(content: bytes, where: object) -> str:
         form, version, taught = facts["format"], facts["version"], str(facts["taught"])
     except (ValueError, KeyError, TypeError) as error:
         raise StorageError(f"{where} was not written by motionese") from error
-    if form != FORMAT:
+    if form != FORMAT or (version == VERSION and taught not in PLACES):
         raise StorageError(f"{where} was not written by motionese")
     if version != VERSION:
         raise StorageError(
@@ -84,26 +84,32 @@ def taught_of(content: bytes, where: object) -> str:
     return taught
 
 
-def unpack(file: Path, folder: Path) -> None:
+def unpack(file: Path, folder: Path, called: str = "") -> None:
     """Unpack a session into a folder, which is made.
+
+    Args:
+        file: The packed session.
+        folder: Where it is to lie.
+        called: What the file is called where it is refused, if not by its path.
 
     Raises:
         StorageError: It is no packed session, or it cannot be written; the folder may then be left.
     """
+    called = called or str(file)
     try:
         if file.stat().st_size > MOST_PACKED:
-            raise StorageError(f"{file}: larger than {_mib(MOST_PACKED)}, no session is")
+            raise StorageError(f"{called}: larger than {_mib(MOST_PACKED)}, no session is")
         with ZipFile(file) as archive:
-            _check(archive, file)
+            _check(archive, called)
             for each in archive.infolist():
                 target = folder / each.filename
                 target.parent.mkdir(parents=True, exist_ok=True)
                 with archive.open(each) as packed, target.open("wb") as unpacked:
                     shutil.copyfileobj(packed, unpacked)
     except DAMAGED as error:
-        raise StorageError(f"{file} is no session, or was damaged ({error})") from error
+        raise StorageError(f"{called} is no session, or was damaged ({error})") from error
     except OSError as error:
-        raise StorageError(f"{error.filename or file}: {error.strerror or error}") from error
+        raise StorageError(f"{error.filename or called}: {error.strerror or error}") from error
 
 
 def write_taught(folder: Path, taught: str) -> None:
@@ -117,20 +123,20 @@ def read_taught(folder: Path) -> str:
     return taught_of(file.read_bytes(), file) if file.is_file() else ""
 
 
-def _check(archive: ZipFile, file: Path) -> None:
+def _check(archive: ZipFile, called: str) -> None:
     """Refuse what is no session, before anything of it is unpacked."""
     files = archive.infolist()
     names = Counter(each.filename for each in files)
     if MANIFEST not in names or SESSION not in names:
-        raise StorageError(f"{file} is no session that motionese has packed")
+        raise StorageError(f"{called} is no session that motionese has packed")
     if len(files) > MOST_FILES or sum(each.file_size for each in files) > MOST_UNPACKED:
-        raise StorageError(f"{file}: it would unpack to more than a session can be; refused")
+        raise StorageError(f"{called}: it would unpack to more than a session can be; refused")
     # An archive's member is never read further than the size it tells, which was counted above.
     with archive.open(MANIFEST) as content:
-        taught_of(content.read(MOST_TOLD), file)
+        taught_of(content.read(MOST_TOLD), called)
     odd = [name for name, count in names.items() if count > 1 or not belongs(name)]
     if odd:
-        raise StorageError(f"{file}: {odd[0]!r} is no file of a session; refused")
+        raise StorageError(f"{called}: {odd[0]!r} is no file of a session; refused")
 
 
 def _snapshot(folder: Path) -> dict[str, bytes]:

@@ -156,13 +156,26 @@ def read_school(folder: Path) -> School:
     return School(first, first.read())
 
 
+def check_opened(folder: Path, called: str) -> None:
+    """Read a session that was unpacked into a folder.
+
+    Raises:
+        StorageError: It cannot be read; it is called by where it came from.
+    """
+    try:
+        read_school(folder)
+    except StorageError as error:
+        why, _, _ = str(error).replace(f"{folder}/", "").partition(";")
+        raise StorageError(f"{called} cannot be opened: {why}") from error
+
+
 def exchange(school: School, opened: Path) -> School:
     """Put a session away, and return the one that lies in a subfolder of its folder in its place.
 
     Raises:
         StorageError: That is no session; nothing has changed.
     """
-    read_school(opened)
+    check_opened(opened, "This session")
     try:
         put_away(school.home, school.home)
         replace_contents(school.home, opened)

@@ -78,7 +78,13 @@ def settle(folder: Path) -> None:
             (folder / name).unlink()
         _copy(replacing, folder)
         replacing.rename(folder / f"{OPENED}done")
-    for left in (folder / _PART, *folder.glob(f"{OPENED}*")):
+    shutil.rmtree(folder / _PART, ignore_errors=True)
+    clear_opened(folder)
+
+
+def clear_opened(folder: Path) -> None:
+    """Remove what was unpacked in a session's folder and is not opened."""
+    for left in folder.glob(f"{OPENED}*"):
         shutil.rmtree(left, ignore_errors=True)
 
 
