@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from motionese.errors import MotioneseError, StorageError
+from motionese.imitation import newborn
 from motionese.teaching.school import NoPlaceError, School, lessons_left, read_school
 from motionese.teaching.session_folder import SessionFolder
 
@@ -75,6 +76,15 @@ def test_one_is_put_away_for_another_and_can_be_opened_there(school, draw):
     assert [names_of(each) for each in earlier] == [["Robot 1"], ["Never"]], "each alone"
     assert [e.taught.teaching.notebook.entries[0].motion for e in earlier] == ["UR ↓", "UR ←"]
     assert not earlier[1].taught.teaching.can_grow
+
+
+def test_the_command_that_began_a_session_goes_on_when_its_robot_was_put_away(scene, tmp_path):
+    folder = SessionFolder(tmp_path)
+    school = School(folder, folder.begin("runs/mine", scene, newborn(scene, 2)))
+    school.begin("fresh", "told", away=school.pupils[0])
+    assert SessionFolder(tmp_path).read("runs/mine").notebook.entries == ()
+    with pytest.raises(StorageError, match="began from fresh, not from runs/other"):
+        SessionFolder(tmp_path).read("runs/other")
 
 
 def test_all_try_the_same_motions_and_learning_makes_that_old(school, draw, kept):

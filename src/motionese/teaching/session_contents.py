@@ -3,9 +3,11 @@
 The server's process reads this, too: nothing heavy is imported here.
 """
 
+import json
 import re
 import shutil
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Literal
 
@@ -39,6 +41,15 @@ def contents(folder: Path, places: Iterable[str] = PLACES) -> list[str]:
 def robots_in(folder: Path) -> list[str]:
     """Return the places of a session's folder in which there is a robot."""
     return [place for place in PLACES if (folder / place / SESSION).is_file()]
+
+
+def origins(folder: Path) -> set[str]:
+    """Return what the robots of a session began from, those that were put away included."""
+    found = set()
+    for file in folder.rglob(SESSION):
+        with suppress(OSError, ValueError, KeyError, TypeError):
+            found.add(str(json.loads(file.read_text())["began"]))
+    return found
 
 
 def put_away(home: Path, what: Path, places: Iterable[str] = PLACES) -> Path:

@@ -32,7 +32,7 @@ from motionese.imitation import (
 from motionese.recordings import write
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook
 from motionese.teaching.session import Teaching
-from motionese.teaching.session_contents import LONGEST_NAME, SESSION, Growth, put_away
+from motionese.teaching.session_contents import LONGEST_NAME, SESSION, Growth, origins, put_away
 from motionese.teaching.trial_file import read_trial, write_trial
 
 FORMAT, VERSION = "motionese-teaching", 3
@@ -108,7 +108,7 @@ class SessionFolder:
         """Return the session to go on with.
 
         Args:
-            begin: What it must have begun from; anything where empty.
+            begin: What it, or one that was put away, must have begun from; anything where empty.
             scene: Where it may go on, if its settings are the same.
 
         Raises:
@@ -134,7 +134,7 @@ class SessionFolder:
                 learned=tuple(_learning(each) for each in facts["learned"]),
                 next=int(facts["next"]),
             )
-        if begin and begin != self.began:
+        if begin and begin not in {self.began, *origins(self.path)}:
             raise StorageError(
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
                 "choose another --session"
