@@ -51,7 +51,10 @@ function nameOf({ id, name }, call) {
     "aria-label": `Name of ${name}`,
     "data-robot": id,
   });
-  it.addEventListener("change", () => call(id, it.value));
+  it.addEventListener("change", () => {
+    if (it.value.trim()) call(id, it.value);
+    else it.value = name;
+  });
   return it;
 }
 

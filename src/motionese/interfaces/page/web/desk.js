@@ -71,6 +71,7 @@ export function tidy(now) {
   };
   for (const [id, on] of Object.entries(enabled)) allow(part(id), on);
   for (const button of document.querySelectorAll("button[data-free]")) allow(button, free);
+  for (const name of part("comparison").querySelectorAll("input")) name.readOnly = !free;
   part("motions").disabled = !free;
   const advising = { judged: now.verdict, performed: now.performed, replayed: now.replayed };
   const { advice } = advising[now.step] ?? {};
