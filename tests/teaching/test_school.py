@@ -140,14 +140,14 @@ def test_a_kill_while_one_is_put_away_leaves_it_as_it_was(school, draw, kept, mo
 
     monkeypatch.setattr("motionese.teaching.session_folder.write_whole", killed)
     with pytest.raises(KeyboardInterrupt):
-        school.begin("fresh", "told", away=first)
+        school.begin("fresh", "beginning", away=first)
     monkeypatch.undo()
     again = read_school(school.home).taught
     assert again.teaching.notebook.learned == first.teaching.notebook.learned
     weights = np.asarray(first.teaching.learner.network.weights)
     np.testing.assert_array_equal(again.teaching.learner.network.weights, weights)
-    again.teaching.forget(1, again.folder.learner)
-    assert "what it was before" in again.teaching.forget(2, again.folder.learner)
+    before = [again.folder.learner(each.before) for each in first.teaching.notebook.learned]
+    assert [len(learner.network.levels) for learner in before] == [2, 2], "undo finds its own"
 
 
 def test_a_robot_that_is_not_there_or_not_whole_is_told(school):
