@@ -100,6 +100,7 @@ def test_all_try_the_same_motions_and_learning_makes_that_old(school, draw, kept
     assert first.results and second.results is None
 
 
+@pytest.mark.slow
 def test_lessons_of_another_robot_are_told_apart_by_what_was_shown(school, draw, kept):
     first, second = school.pupils[0].teaching, school.begin("fresh", "told").teaching
     for name in ("UR ↓", "UR ←"):

@@ -55,6 +55,7 @@ def said(told):
     return [message["sentence"] for message in told if message["type"] == "told"]
 
 
+@pytest.mark.slow
 def test_robots_are_begun_switched_and_named(robot, told):
     first = last(told, "robots")["taught"]
     begun(robot, grows="beginning")
@@ -94,7 +95,8 @@ def test_a_fourth_needs_the_place_of_another(robot, told):
     assert last(told, "session")["busy"] == ""
 
 
-def test_another_robot_has_the_same_lessons(robot, told, monkeypatch):
+@pytest.mark.slow
+def test_another_robot_has_the_same_lessons(robot, told):
     first = last(told, "robots")["taught"]
     for name in ("UR ↓", "UR ←"):
         shown(robot, name)
@@ -114,6 +116,7 @@ def test_another_robot_has_the_same_lessons(robot, told, monkeypatch):
     assert "had all those lessons" in said(told)[-1]
 
 
+@pytest.mark.slow
 def test_lessons_that_were_stopped_go_on_where_they_were(robot, told):
     first = last(told, "robots")["taught"]
     for name in ("UR ↓", "UR ←"):
