@@ -28,7 +28,8 @@ KINDS = (
         "map",
         "hover",
     ),
-    *("begin", "stop", "export", "left", "refused", "__class__"),
+    *("begin", "teach", "call", "repeat", "compare", "open"),
+    *("stop", "export", "left", "refused", "__class__"),
 )
 near = some.fixed_dictionaries(
     {"type": some.sampled_from(KINDS)},
@@ -41,6 +42,10 @@ near = some.fixed_dictionaries(
         "primitive": some.sampled_from(["UR ↓", "LL ↑", "no such"]),
         "with": some.sampled_from(["fresh", "/etc", ""]),
         "take": some.booleans(),
+        "robot": some.text(max_size=5),
+        "name": some.text(max_size=30),
+        "grows": some.sampled_from(["never", "beginning", "tomorrow"]),
+        "file": some.sampled_from([32 * "a", "../..", ""]),
         "session": some.text(max_size=5),
         "source": some.sampled_from(["drawn", "webcam", "scripted"]),
         "follow": some.booleans(),

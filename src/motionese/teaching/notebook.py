@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
@@ -87,6 +88,12 @@ class Notebook:
     def entry(self, number: int) -> Entry | None:
         """Return the entry of a number, or None if there is none (any more)."""
         return next((e for e in self.entries if e.number == number), None)
+
+    def entry_like(self, other: Entry) -> Entry | None:
+        """Return the latest entry that shows the same as one of another notebook, or None."""
+        path = other.demonstration.path
+        same = (e for e in reversed(self.entries) if np.array_equal(e.demonstration.path, path))
+        return next(same, None)
 
     def with_entry(self, entry: Entry) -> "Notebook":
         """Return the notebook with a new or changed entry."""

@@ -75,6 +75,7 @@ class Teaching:
     Attributes:
         standing: Where the session stands.
         numbers: How many learners were numbered so far.
+        grows: Whether it may open a level.
         recogniser: Recognises with what the robot knows now.
     """
 
@@ -86,9 +87,10 @@ class Teaching:
         *,
         number: int = 1,
         numbers: int = 1,
+        grows: bool = True,
     ) -> None:
         """Begin, or go on with a learner of a number, when so many numbers were given."""
-        self.scene, self.numbers = scene, numbers
+        self.scene, self.numbers, self.grows = scene, numbers, grows
         self.standing = Standing(learner, number, notebook or Notebook())
         self.recogniser = Recogniser(scene, learner)
 
@@ -109,8 +111,10 @@ class Teaching:
 
     @property
     def can_grow(self) -> bool:
-        """Whether a level of the settings is not open yet."""
-        return len(self.learner.network.levels) < len(self.scene.settings.network.levels)
+        """Whether it may open a level of the settings that is not open yet."""
+        return self.grows and len(self.learner.network.levels) < len(
+            self.scene.settings.network.levels
+        )
 
     @property
     def should_grow(self) -> bool:
@@ -159,6 +163,16 @@ class Teaching:
             e.motion: e.demonstration.path for e in entries if not sequence_called(e.motion, task)
         }
         return hypotheses(path, task, own, whole=whole)
+
+    def demonstrations(self) -> dict[str, Demonstration]:
+        """Return the latest demonstration of every motion that was shown, or learned elsewhere."""
+        return {**self._taught(), **{e.motion: e.demonstration for e in self.notebook.entries}}
+
+    def result_at(self, motion: str, shown: Demonstration) -> Result:
+        """Return what an imitation of a demonstration comes to now; nothing is noted."""
+        task, watched = self.scene.task, self.watch(shown)
+        done = self._performed(watched, self.recogniser.at_the_end(watched))
+        return result_of(done, watched, sequence_called(motion, task), task)
 
     def look_back(self, number: int) -> Observation | None:
         """Watch an entry of the notebook again: it is what is imitated and learned next."""

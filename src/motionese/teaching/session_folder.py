@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 from uuid import uuid4
 from zipfile import BadZipFile
 
@@ -32,15 +32,17 @@ from motionese.imitation import (
 from motionese.recordings import write
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook
 from motionese.teaching.session import Teaching
+from motionese.teaching.session_contents import LONGEST_NAME, SESSION, Growth, origins, put_away
 from motionese.teaching.trial_file import read_trial, write_trial
 
 FORMAT, VERSION = "motionese-teaching", 3
-SESSION = "session.json"
 FRESH = "fresh"
 CHANGED = (OSError, EOFError, ValueError, KeyError, TypeError, AttributeError, BadZipFile)
 """What reading a file meets that was changed since it was written."""
 LEVELS = 2
 """Levels of a robot at the beginning: input and output, and the fastest context."""
+FIRST = "Robot 1"
+"""The name of a robot that was given none."""
 
 
 class SessionFolder:
@@ -49,11 +51,13 @@ class SessionFolder:
     Attributes:
         id: A name of the session that no other has.
         began: What its robot began from.
+        name: What a person calls the robot.
+        grows: When it opens its slow level.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, name: str = FIRST, grows: Growth = "told") -> None:
         """Keep a session in a folder, which is made when it is first saved."""
-        self.path = path
+        self.path, self.name, self.grows = path, name, grows
         self.id, self.began = uuid4().hex[:12], ""
         # What this process knows to be written: the learner's number, and the entries' files. One
         # that a killed process has left under a number that was not yet given counts for nothing.
@@ -76,32 +80,36 @@ class SessionFolder:
         """
         if self.path.exists() and any(not p.name.startswith(".") for p in self.path.iterdir()):
             raise StorageError(f"{self.path} is not empty and no session; choose another --session")
-        teaching = Teaching(scene, learner or _new(began, scene))
+        teaching = Teaching(scene, learner or self._new(began, scene), grows=self._may_grow)
         self.began = began
         self.save(teaching)
         return teaching
 
-    def begin_anew(self, began: str, before: Teaching) -> Teaching:
-        """Begin a session with the same settings; the one before is kept in a subfolder."""
-        learner = _new(began, before.scene)
-        number = len(list(self.path.glob("earlier-*"))) + 1
-        earlier = self.path / f"earlier-{number:02d}"
-        earlier.mkdir()
-        # The session's own file goes last: until then it names files that are still found.
-        own = [*self.path.glob("*.npz"), *self.path.glob("*.safetensors"), self.path / SESSION]
-        for file in own:
-            file.rename(earlier / file.name)
+    def begin_anew(self, began: str, before: Teaching, home: Path | None = None) -> Teaching:
+        """Begin a session with the same settings; the one before is put away in a subfolder.
+
+        Args:
+            began: "babbling" or "fresh".
+            before: The session that ends.
+            home: Whose subfolder that is, where it is not this folder's.
+        """
+        learner = self._new(began, before.scene)
+        put_away(home or self.path, self.path, [""])
         self.id, self.began = uuid4().hex[:12], began
         self._written, self._entries = 0, set()
-        teaching = Teaching(before.scene, learner)
-        self.save(teaching)
-        return teaching
+        # A number that the session before has not given: until this one is written whole, that one
+        # is still there with all its learners.
+        number = before.numbers + 1
+        anew = Teaching(before.scene, learner, number=number, numbers=number, grows=self._may_grow)
+        self.save(anew)
+        return anew
 
-    def read(self, begin: str = "") -> Teaching:
+    def read(self, begin: str = "", scene: Scene | None = None) -> Teaching:
         """Return the session to go on with.
 
         Args:
-            begin: What it must have begun from; anything where empty.
+            begin: What it, or one that was put away, must have begun from; anything where empty.
+            scene: Where it may go on, if its settings are the same.
 
         Raises:
             StorageError: What is in the folder is no session, or it began from something else.
@@ -118,6 +126,7 @@ class SessionFolder:
                     "--session"
                 )
             self.id, self.began = str(facts["id"]), str(facts["began"])
+            self.name, self.grows = _robot(facts)
             number, numbers, seed = (int(facts[name]) for name in ("learner", "learners", "seed"))
             settings = checked(Settings, facts["settings"])
             notebook = Notebook(
@@ -125,15 +134,23 @@ class SessionFolder:
                 learned=tuple(_learning(each) for each in facts["learned"]),
                 next=int(facts["next"]),
             )
-        if begin and begin != self.began:
+        if begin and begin not in {self.began, *origins(self.path)}:
             raise StorageError(
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
                 "choose another --session"
             )
         self._written = number
         self._entries = {file for entry in notebook.entries for file in self._files_of(entry)}
-        scene, learner = Scene(settings, seed), self.learner(number)
-        return Teaching(scene, learner, notebook, number=number, numbers=numbers)
+        if scene is None or (scene.settings, scene.seed) != (settings, seed):
+            scene = Scene(settings, seed)
+        return Teaching(
+            scene,
+            self.learner(number),
+            notebook,
+            number=number,
+            numbers=numbers,
+            grows=self._may_grow,
+        )
 
     def save(self, teaching: Teaching) -> None:
         """Write what has changed; the session stays as it is."""
@@ -159,6 +176,15 @@ class SessionFolder:
         """Return the learner of a number that was kept."""
         return read_learner(self._learner_path(number))[0]
 
+    @property
+    def _may_grow(self) -> bool:
+        return self.grows != "never"
+
+    def _new(self, began: str, scene: Scene) -> Learner:
+        levels = len(scene.settings.network.levels) if self.grows == "beginning" else LEVELS
+        learner = newborn(scene, levels)
+        return babbled(scene, learner) if began == BABBLING else learner
+
     def _write(self, entry: Entry) -> None:
         """Write what was shown, and the last try at it."""
         shown_in, tried_in = self._files_of(entry)
@@ -180,6 +206,8 @@ class SessionFolder:
             "version": VERSION,
             "id": self.id,
             "began": self.began,
+            "name": self.name,
+            "grows": self.grows,
             "seed": teaching.scene.seed,
             "learner": teaching.standing.number,
             "learners": teaching.numbers,
@@ -226,9 +254,12 @@ class SessionFolder:
             (self.path / DEMONSTRATIONS).unlink(missing_ok=True)
 
 
-def _new(began: str, scene: Scene) -> Learner:
-    learner = newborn(scene, LEVELS)
-    return babbled(scene, learner) if began == BABBLING else learner
+def _robot(facts: dict[str, Any]) -> tuple[str, Growth]:
+    """Return a robot's name, and when it grows."""
+    name, grows = str(facts.get("name", FIRST)), facts.get("grows", "told")
+    if grows not in get_args(Growth):
+        raise ValueError(f"grows {grows!r}")
+    return name[:LONGEST_NAME], grows
 
 
 def _learning(facts: dict[str, Any]) -> Learning:

@@ -216,6 +216,6 @@ def test_whatever_is_said_is_passed_on_as_it_should_be_or_refused(said):
         with page(client) as again:
             assert again.hear("owner")["yours"], "the server goes on"
         for passed in client.hub._supervisor.heard:
-            assert passed["type"] in KINDS[1:11] or passed["type"] == "left"
+            assert passed["type"] in KINDS[1:17] or passed["type"] == "left"
             for at, x, y in passed.get("points", ()):
                 assert 0 <= at <= 1e12 and -1 <= x <= 2 and -1 <= y <= 2

@@ -12,6 +12,7 @@ from motionese.imitation import Scene, newborn
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
 from motionese.recordings import read
+from motionese.teaching.school import read_school
 from motionese.teaching.session_folder import SessionFolder
 
 
@@ -219,5 +220,5 @@ def test_thousands_of_messages_leave_server_and_session_whole(client, session):
     assert client.hub.worker_pid == pid, "the robot's process went on all the time"
     assert client.get("/").status_code == 200
     outside = {path.name for path in session.parent.iterdir()}
-    assert SessionFolder(session).read().notebook.entries[-1].motion == "UR ←"
+    assert read_school(session).taught.teaching.notebook.entries[-1].motion == "UR ←"
     assert outside == {path.name for path in session.parent.iterdir()}

@@ -134,8 +134,16 @@ def teach(
         ),
     ] = "",
     session: Annotated[
-        Path, Option(metavar="FOLDER", help="Where the session is kept, and goes on from.")
+        Path,
+        Option(
+            metavar="FOLDER|FILE",
+            help="Where the session is kept, and goes on from; or one that was saved as a file.",
+        ),
     ] = Path("session"),
+    into: Annotated[
+        Path | None,
+        Option(metavar="FOLDER", help="Where a FILE is unpacked; beside it if left out."),
+    ] = None,
     host: Annotated[
         str, Option(help="The address to listen at; others need a --token.")
     ] = "127.0.0.1",
@@ -146,14 +154,24 @@ def teach(
     ] = False,
 ) -> None:
     """Teach the simulated robot yourself, on a page in your browser."""
-    with plainly("stopped; the session is kept, the same command goes on") as console:
+    folder = session
+
+    def stopped() -> str:
+        how = "the same command goes on" if folder == session else f"--session {folder} goes on"
+        return f"stopped; the session is kept, {how}"
+
+    with plainly(stopped) as console:
         _check_extra("teach", "web")
+        from motionese.interfaces.commands.shared_session import session_folder
         from motionese.interfaces.page.server import teach as serve
 
+        folder = session_folder(session, into)
+        if folder != session:
+            console.print(f"{session} is unpacked into {folder}")
         serve(
             console,
             begin=begin,
-            session=session,
+            session=folder,
             host=host,
             port=port,
             token=token,

@@ -61,18 +61,18 @@ class Admission:
                 f"--token: at least {SHORTEST_TOKEN} characters, all of them ASCII, are needed"
             )
 
-    def refusal(self, headers: Mapping[str, str], token: str, *, socket: bool) -> str:
+    def refusal(self, headers: Mapping[str, str], token: str, *, acts: bool) -> str:
         """Return why a request is refused, or "".
 
         Args:
             headers: The request's headers, names in lower case.
             token: The token it brought, or "".
-            socket: Whether it opens a WebSocket: those must tell their origin.
+            acts: Whether it opens a WebSocket, or sends something: those must tell their origin.
         """
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._known_host(host):
             return "this name is not one of the server's"
-        if origin is None and socket:
+        if origin is None and acts:
             return "a connection must tell its origin"
         if origin is not None and origin not in (f"http://{host}", f"https://{host}"):
             return "pages of other sites are not let in"
@@ -124,7 +124,8 @@ class Gate:
         headers = {name.lower(): value for name, value in Headers(scope=scope).items()}
         given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         socket = scope["type"] == "websocket"
-        reason = self._admission.refusal(headers, given or _cookie(headers), socket=socket)
+        acts = socket or scope["method"] not in ("GET", "HEAD")
+        reason = self._admission.refusal(headers, given or _cookie(headers), acts=acts)
 
         async def guarded(message: Message) -> None:
             if message["type"] == "http.response.start":

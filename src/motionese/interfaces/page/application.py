@@ -1,4 +1,4 @@
-"""The web server: the page and its files, the connection, the export."""
+"""The web server: the page and its files, the connection, the export, the session as a file."""
 
 import contextlib
 from collections.abc import AsyncIterator, Callable
@@ -12,6 +12,8 @@ from starlette.staticfiles import StaticFiles
 
 from motionese.interfaces.page.admission import Admission, Gate
 from motionese.interfaces.page.hub import Hub
+from motionese.interfaces.page.sharing import sharing
+from motionese.teaching.packed_session import read_taught
 
 PAGE = Path(__file__).parent / "web"
 EXPORT = "demonstrations.npz"
@@ -42,7 +44,7 @@ def application(
         return JSONResponse({"worker": hub.worker["state"]})
 
     async def export(request: Request) -> Response:
-        file = session / EXPORT
+        file = session / read_taught(session) / EXPORT
         if not file.is_file():
             return PlainTextResponse("Nothing was shown yet.", status_code=404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
@@ -52,6 +54,7 @@ def application(
             Route("/", page),
             Route("/health", health),
             Route("/export.npz", export),
+            sharing(session),
             WebSocketRoute("/live", hub.visited),
             Mount("/static", StaticFiles(directory=PAGE)),
         ],

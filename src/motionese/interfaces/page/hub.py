@@ -22,7 +22,7 @@ from motionese.interfaces.page.messages import (
 from motionese.interfaces.page.supervisor import Supervisor
 
 POLICY, MOST_WAITING = 1008, 4096
-KEPT = ("scene", "session", "map")
+KEPT = ("scene", "session", "robots", "map")
 """What a page is told when it comes: the last of each."""
 OUTDATING = ("learned", "grown", "begun")
 """What a map is not true after."""

@@ -10,6 +10,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
+from motionese.teaching.session_contents import LONGEST_NAME, Growth
+
 MOST_BYTES = 64 * 1024
 """Of one message."""
 MOST_POINTS = 512
@@ -75,20 +77,49 @@ class Hover(Said):
     primitive: Annotated[str, Field(max_length=32)]
 
 
+RobotName = Annotated[str, Field(max_length=LONGEST_NAME)]
+Id = Annotated[str, Field(max_length=64)]
+
+
 class Begin(Said):
-    """A new robot is wanted: after babbling, or fresh."""
+    """A new robot is wanted: after babbling, or fresh; `away` is put away for it, if any."""
 
     type: Literal["begin"]
     with_: Annotated[Literal["babbling", "fresh"], Field(alias="with")]
+    grows: Growth = "told"
+    name: RobotName = ""
+    away: Id = ""
+
+
+class OfRobot(Said):
+    """A robot is to be taught from now on; or the one taught is to have its lessons."""
+
+    type: Literal["teach", "repeat"]
+    robot: Id
+
+
+class Call(Said):
+    """A robot has a name."""
+
+    type: Literal["call"]
+    robot: Id
+    name: RobotName
+
+
+class Open(Said):
+    """A session that was sent as a file is to take the place of this one."""
+
+    type: Literal["open"]
+    file: Annotated[str, Field(pattern="^[0-9a-f]{32}$")]
 
 
 class Plain(Said):
     """A message without content."""
 
-    type: Literal["imitate", "learn", "grow", "map", "stop"]
+    type: Literal["imitate", "learn", "grow", "map", "compare", "stop"]
 
 
-Message = Hello | Pen | Demonstrate | OfEntry | Hover | Begin | Plain
+Message = Hello | Pen | Demonstrate | OfEntry | Hover | Begin | OfRobot | Call | Open | Plain
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 
 

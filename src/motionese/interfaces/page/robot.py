@@ -16,13 +16,16 @@ from motionese.imitation import BABBLING, Scene, generator_for
 from motionese.interfaces.page import descriptions
 from motionese.interfaces.page.messages import Answer, Tell
 from motionese.interfaces.page.pen import Pen
+from motionese.interfaces.page.robots import Robots
 from motionese.learning import Progress
 from motionese.teaching.drawing import DrawingError, most_rows
 from motionese.teaching.frames import Film, film
 from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.notebook import Entry, Source
 from motionese.teaching.practice import Report
+from motionese.teaching.school import Pupil, School
 from motionese.teaching.session import PRACTICE, Teaching
+from motionese.teaching.session_contents import settle
 from motionese.teaching.session_folder import FRESH, SessionFolder
 from motionese.teaching.trial import Trial
 from motionese.teaching.view import View
@@ -45,6 +48,7 @@ def open_session(folder: SessionFolder, begin: str) -> Teaching:
         StorageError: What is in the folder is no session, or it began from something else.
         RunFolderError: No such run.
     """
+    settle(folder.path)
     if folder.exists:
         return folder.read(begin)
     if begin in ("", BABBLING, FRESH):
@@ -64,16 +68,18 @@ class Robot:
         self, folder: SessionFolder, teaching: Teaching, tell: Tell, stop_asked: Callable[[], bool]
     ) -> None:
         """Serve a session; `stop_asked` says, while the network learns, whether to stop."""
-        self._folder, self._tell, self._stop_asked = folder, tell, stop_asked
-        body = teaching.scene.body
-        self._view, self._geometry = View(body, teaching.scene.task), Geometry(body.model)
+        self._tell, self._stop_asked = tell, stop_asked
         self.going: Iterator[float] | None = None
         self._busy = ""
-        self._become(teaching)
+        self._robots = Robots(self, School(folder, teaching), tell)
+        self.become(self._robots.school.taught)
 
-    def _become(self, teaching: Teaching) -> None:
-        self.teaching = teaching
-        self.pen = Pen(teaching, self._view, self._geometry, self._tell)
+    def become(self, pupil: Pupil) -> None:
+        """Be a robot of the session from now on."""
+        self._folder, self.teaching = pupil.folder, pupil.teaching
+        body, task = self.teaching.scene.body, self.teaching.scene.task
+        self._view, self._geometry = View(body, task), Geometry(body.model)
+        self.pen = Pen(self.teaching, self._view, self._geometry, self._tell)
         self._map: InteractiveMap | None = None
 
     def introduce(self) -> None:
@@ -84,6 +90,10 @@ class Robot:
         self._tell(descriptions.scene_message(scene, self._view, self._geometry))
         self.tell_session()
 
+    def warm_up(self) -> None:
+        """Let everything be compiled that a drawing asks for."""
+        self._robots.warm_up()
+
     def tell_session(self, busy: str | None = None) -> None:
         """Tell where the session stands."""
         self._busy = self._busy if busy is None else busy
@@ -92,6 +102,7 @@ class Robot:
             self.teaching, self._view, folder.id, folder.began, self._busy
         )
         self._tell(told)
+        self._robots.tell_all()
 
     def take(self, message: dict[str, Any]) -> None:
         """Do what a message says, or begin to."""
@@ -115,7 +126,8 @@ class Robot:
                 "replay": self._replay,
                 "grow": self._grow,
                 "map": self._draw_map,
-                "begin": self._begin,
+                "repeat": self._repeat,
+                **self._robots.does,
             }[kind](message)
 
     def go_on(self) -> float | None:
@@ -223,6 +235,20 @@ class Robot:
         lesson = self._changed(lambda report: self.teaching.learn(report, tried), "learning")
         self._tell(descriptions.learned_message(lesson))
 
+    def _repeat(self, message: dict[str, Any]) -> Iterator[float]:
+        """Have the lessons of another robot, with the same demonstrations."""
+        name, left = self._robots.lessons_of(message["robot"])
+        if not left:
+            self._hint("This robot has had all those lessons.")
+        for number, shown in enumerate(left, 1):
+            self._hint(f"Lesson {number} of {len(left)}, as {name} had it.")
+            if (entry := self.teaching.notebook.entry_like(shown)) is None:
+                path = shown.demonstration.path
+                self._show(path, shown.drawn, shown.source, time.monotonic())
+            else:
+                self.teaching.look_back(entry.number)
+            yield from self._learn(message)
+
     def _replay(self, message: dict[str, Any]) -> Iterator[float]:
         observed = self.teaching.look_back(message["entry"])
         if observed is None:
@@ -288,13 +314,6 @@ class Robot:
         yield 0.0
         self._map = self._map or InteractiveMap(self.teaching)
         self._tell(descriptions.map_message(self._map))
-
-    def _begin(self, message: dict[str, Any]) -> Iterator[float]:
-        self.tell_session("beginning anew")
-        yield 0.0
-        self._become(self._folder.begin_anew(message["with"], self.teaching))
-        self._tell({"type": "begun"})
-        self._hint("A new robot. The session before is kept in the session's folder.")
 
     def _hover(self, message: dict[str, Any]) -> None:
         if self._map is None or self._busy:

@@ -63,13 +63,12 @@ def _awake(
     folder = SessionFolder(origin.session)
     goes_on = folder.exists
     try:
-        teaching = open_session(folder, origin.begin)
+        robot = Robot(folder, open_session(folder, origin.begin), connection.send, stop_asked)
     except MotioneseError as error:
         connection.send({"type": "refused", "sentence": str(error)})
         return None
-    robot = Robot(folder, teaching, connection.send, stop_asked)
     robot.introduce()
-    teaching.warm_up()
+    robot.warm_up()
     sentence = "The session goes on where it was." if goes_on else ""
     connection.send(worker_message("ready", sentence))
     return robot

@@ -7,7 +7,7 @@ import { read } from "./task.js";
 
 const TOAST_MS = 7000;
 /** What takes long enough for a bar, and can be stopped. */
-const LONG = ["learning", "growing"];
+const LONG = ["learning", "growing", "comparing"];
 const PHASES = { 1: "Phase 1: single strokes", 2: "Phase 2: sequences" };
 
 /** Let every button do what it is for; `touched()` is called before, `seen()` where one must look. */
@@ -17,6 +17,7 @@ export function furnish(send, touched, seen, takeOver) {
     imitate: () => send({ type: "imitate" }) && seen(),
     learn: () => send({ type: "learn" }) && seen(),
     grow: () => send({ type: "grow" }),
+    compare: () => send({ type: "compare" }),
     "map-draw": () => send({ type: "map" }),
     stop: () => send({ type: "stop" }),
     begin: () => part("begin-dialog").showModal(),
@@ -29,11 +30,6 @@ export function furnish(send, touched, seen, takeOver) {
       act();
     });
   }
-  part("begin-dialog").addEventListener("close", () => {
-    const chosen = part("begin-dialog").returnValue;
-    part("begin-dialog").returnValue = "";
-    if (chosen) send({ type: "begin", with: chosen });
-  });
 }
 
 /** Offer the motions that can be shown by themselves. */
@@ -63,6 +59,8 @@ export function tidy(now) {
   const enabled = {
     demonstrate: free,
     begin: free,
+    compare: free,
+    open: free,
     webcam: now.watching,
     "webcam-show": now.watching,
     imitate: free && session.shown !== null,
@@ -72,6 +70,8 @@ export function tidy(now) {
     stop: Boolean(session.busy),
   };
   for (const [id, on] of Object.entries(enabled)) allow(part(id), on);
+  for (const button of document.querySelectorAll("button[data-free]")) allow(button, free);
+  for (const name of part("comparison").querySelectorAll("input")) name.readOnly = !free;
   part("motions").disabled = !free;
   const advising = { judged: now.verdict, performed: now.performed, replayed: now.replayed };
   const { advice } = advising[now.step] ?? {};

@@ -9,6 +9,9 @@ const BUSY = {
   growing: "A slow level is growing.",
   demonstrating: "Watch the red hand: the robot is watching it, too.",
   "drawing the map": "It is trying out every slow state.",
+  comparing: "Every robot tries every motion that was shown.",
+  "waking up": "This robot is waking up …",
+  "opening a session": "The session is being opened …",
   "beginning anew": "A new robot is babbling: it moves its arm and sees what comes of it.",
 };
 

@@ -1,6 +1,7 @@
 // The page: what arrives goes to the parts that show it, what a person does goes to the robot.
 
 import { showBelief } from "./belief.js";
+import { showComparison } from "./comparison.js";
 import { showCurves } from "./curves.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
 import { onScheme, part, prefersStillness, say } from "./dom.js";
@@ -12,6 +13,8 @@ import { showGrown, showNotebook } from "./notebook.js";
 import { pathAlong } from "./paths.js";
 import { Playback } from "./playback.js";
 import { Pace } from "./playing.js";
+import { robotsBegun, showRobots } from "./robots.js";
+import { openable } from "./sharing.js";
 import { Showing } from "./showing.js";
 import { Stage } from "./stage.js";
 import { primitivesOf, read, takeTask, task } from "./task.js";
@@ -44,6 +47,7 @@ const now = {
     can_grow: false,
     can_map: false,
   },
+  robots: 0,
   step: "",
   verdict: null,
   performed: null,
@@ -114,6 +118,18 @@ const heard = {
       (entry) => send({ type: "forget", entry }),
     );
     if (!message.busy) lesson.stopped();
+  },
+  robots(message) {
+    now.robots = message.robots.length;
+    showRobots(message, (robot) => send({ type: "teach", robot }));
+    showComparison(
+      message,
+      (robot, name) => send({ type: "call", robot, name }),
+      (robot) => {
+        touched();
+        if (send({ type: "repeat", robot })) toTheStage();
+      },
+    );
   },
   understanding(message) {
     now.understandings += 1;
@@ -352,6 +368,8 @@ function refresh() {
 }
 
 furnish(send, touched, toTheStage, () => live.greet(true));
+robotsBegun(send);
+openable(send, tell);
 onScheme(() => view.refresh());
 live.connect();
 refresh();
@@ -365,6 +383,8 @@ window.teach = {
     frames: stage.frames,
     notebook: now.session.notebook.length,
     phase: now.session.phase,
+    robots: now.robots,
+    session: now.session.id,
     busy: now.session.busy,
     step: now.step,
     ready: isReady(),
