@@ -7,6 +7,7 @@ from motionese.imitation.initial_state_map import (
     has_map,
     map_slow_states,
     slow_map_of,
+    strokes_from,
     with_slow_state,
 )
 from motionese.imitation.keys import generator_for, key_for
@@ -71,6 +72,7 @@ __all__ = [
     "sequence_of",
     "setting_names",
     "slow_map_of",
+    "strokes_from",
     "switched",
     "watch",
     "with_slow_state",

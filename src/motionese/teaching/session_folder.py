@@ -30,6 +30,7 @@ from motionese.imitation import (
     write_learner,
 )
 from motionese.recordings import write
+from motionese.teaching.emergence import Direction, Emergence, Following, Reading
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook
 from motionese.teaching.session import Teaching
 from motionese.teaching.trial_file import read_trial, write_trial
@@ -125,6 +126,7 @@ class SessionFolder:
                 learned=tuple(_learning(each) for each in facts["learned"]),
                 next=int(facts["next"]),
             )
+            emerged = tuple(_emergence(each) for each in facts.get("emerged", ()))
         if begin and begin != self.began:
             raise StorageError(
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
@@ -133,7 +135,7 @@ class SessionFolder:
         self._written = number
         self._entries = {file for entry in notebook.entries for file in self._files_of(entry)}
         scene, learner = Scene(settings, seed), self.learner(number)
-        return Teaching(scene, learner, notebook, number=number, numbers=numbers)
+        return Teaching(scene, learner, notebook, number=number, numbers=numbers, emerged=emerged)
 
     def save(self, teaching: Teaching) -> None:
         """Write what has changed; the session stays as it is."""
@@ -186,6 +188,7 @@ class SessionFolder:
             "next": teaching.notebook.next,
             "entries": entries,
             "learned": [asdict(each) for each in teaching.notebook.learned],
+            "emerged": [asdict(each) for each in teaching.emerged],
             "settings": settings,
         }
 
@@ -233,6 +236,17 @@ def _new(began: str, scene: Scene) -> Learner:
 
 def _learning(facts: dict[str, Any]) -> Learning:
     return Learning(**{**facts, "changes": tuple(Change(**each) for each in facts["changes"])})
+
+
+def _emergence(facts: dict[str, Any]) -> Emergence:
+    return Emergence(
+        learner=facts["learner"],
+        levels=tuple(facts["levels"]),
+        directions=tuple(Direction(**each) for each in facts["directions"]),
+        first=Following(**facts["first"]),
+        order=Following(**facts["order"]),
+        read=tuple(Reading(**each) for each in facts["read"]),
+    )
 
 
 @contextmanager
