@@ -55,6 +55,7 @@ class InteractiveMap:
 
     Attributes:
         plane: Which initial states it is drawn over.
+        below: The name of the level below.
         axis: Their values along both directions.
         strokes: By primitive the first stroke, and the one that follows it.
         points: Where the learned motions lie: name, and place in the plane.
@@ -66,6 +67,7 @@ class InteractiveMap:
         self._scene, self._network, memory = scene, learner.network, learner.memory
         settings = scene.settings.evaluation
         self.plane = plane_of(learner, settings.map_range)
+        self.below = self._network.names[-2]
         reach = self.plane.reach
         self.axis: list[float] = np.round(
             np.linspace(-reach, reach, settings.map_points), DIGITS

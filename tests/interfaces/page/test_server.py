@@ -170,6 +170,16 @@ def test_a_second_page_is_told_and_may_take_over(client):
             assert own.hear("told")["kind"] == "refusal"
 
 
+def test_what_has_emerged_is_told_when_there_is_time_and_to_every_page(client):
+    with page(client) as own:
+        told = own.hear("emergence")
+    assert len(told["directions"]) == 5 and told["levels"] == ["io", "cf"]
+    assert {d["primitive"]: d["learned"] for d in told["directions"]}["LL ↑"]
+    assert not told["slow"] and "no slow level" in told["first"]["missing"]
+    with page(client) as other:
+        assert other.hear("emergence") == told
+
+
 @pytest.mark.slow
 def test_undo_and_growth_and_the_map(client):
     with page(client) as own:

@@ -334,6 +334,7 @@ def map_message(drawn: InteractiveMap) -> Answer:
     return {
         "type": "map",
         "level": drawn.plane.level,
+        "below": drawn.below,
         "slow": drawn.plane.slow,
         "axis": drawn.axis,
         "points": [{"motion": motion, "at": at} for motion, at in drawn.points],
