@@ -22,7 +22,6 @@ from motionese.imitation import Scene, newborn, read_learner
 from motionese.interfaces.page.descriptions import scene_message
 from motionese.recordings import read
 from motionese.teaching.frames import film
-from motionese.teaching.interactive_map import InteractiveMap
 from motionese.teaching.session import PRACTICE, GrowthError, Teaching
 from motionese.teaching.session_folder import SessionFolder
 from motionese.teaching.view import View
@@ -143,18 +142,13 @@ def test_growth_compares_the_same_imitations(teaching, draw, kept):
     for name in ("UR ←", "UR ↓", "UR ←"):
         teaching.show(draw(name), "drawn")
         teaching.learn(nothing)
-    assert teaching.can_grow and not InteractiveMap.possible(teaching)
+    assert teaching.can_grow
     changes = teaching.grow(nothing)
     assert [c.motion for c in changes] == ["UR ←", "UR ↓"], "every motion once"
     assert {c.motion: c.after_cm for c in changes} == errors_now(teaching)
     assert not teaching.can_grow
     assert [level.name for level in teaching.learner.network.levels] == ["io", "cf", "cs"]
     assert teaching.imitate().state.shape == (teaching.learner.network.size,)
-    drawn = InteractiveMap(teaching)
-    points = teaching.scene.settings.evaluation.map_points
-    assert {len(grid) for grid in drawn.grids.values()} == {points**2} and len(drawn.grids) == 5
-    assert drawn.motion("UR ↓", (0.0, 1.0)).shape == (28, 3)
-    assert drawn.motion("../../etc", (0.0, 1.0)) is None
 
 
 def levels_of(network):

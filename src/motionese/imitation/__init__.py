@@ -6,8 +6,7 @@ from motionese.imitation.following import follow, followed, recognised_while_sho
 from motionese.imitation.initial_state_map import (
     has_map,
     map_slow_states,
-    slow_map_of,
-    with_slow_state,
+    strokes_from,
 )
 from motionese.imitation.keys import generator_for, key_for
 from motionese.imitation.learner import (
@@ -70,9 +69,8 @@ __all__ = [
     "seen_error_cm",
     "sequence_of",
     "setting_names",
-    "slow_map_of",
+    "strokes_from",
     "switched",
     "watch",
-    "with_slow_state",
     "write_learner",
 ]

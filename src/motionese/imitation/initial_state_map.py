@@ -74,12 +74,8 @@ def slow_map_of(
     settings, level = scene.settings.evaluation, network.levels[-1].name
     axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
     grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
-    length = scene.settings.caregiver.rows(primitive)
     states = with_slow_state(network, state, grid)
-    firsts = np.repeat(first[None], len(grid), axis=0)
-    seen = scene.body.bearing(generate(network, states, 2 * length, first=firsts))
-    corners = [seen[:, row] for row in (0, length - 1, 2 * length - 1)]
-    segments = [stroke(begin, end) for begin, end in pairwise(corners)]
+    segments = strokes_from(scene, network, primitive, states, first)
     rows = []
     for point, *strokes in zip(grid, *segments, strict=True):
         row: Row = {"primitive": primitive.name}
@@ -88,3 +84,26 @@ def slow_map_of(
             row |= {f"direction_{number}_rad": direction, f"extent_{number}_rad": extent}
         rows.append(row)
     return rows
+
+
+def strokes_from(
+    scene: Scene,
+    network: MTRNN,
+    primitive: PrimitiveSequence,
+    states: Float[ndarray, "G N"],
+    first: Float[ndarray, " D"],
+) -> Float[ndarray, "2 G 2"]:
+    """Return direction [rad] and extent [rad] of two strokes that a network makes from states.
+
+    Args:
+        scene: Robot and caregiver.
+        network: The robot's network.
+        primitive: As long as this is either stroke.
+        states: Initial states of all levels.
+        first: The first row, as the own body senses it.
+    """
+    length = scene.settings.caregiver.rows(primitive)
+    firsts = np.repeat(first[None], len(states), axis=0)
+    seen = scene.body.bearing(generate(network, states, 2 * length, first=firsts))
+    corners = [seen[:, row] for row in (0, length - 1, 2 * length - 1)]
+    return np.stack([stroke(begin, end) for begin, end in pairwise(corners)])

@@ -90,6 +90,11 @@ class Recogniser:
         values = self._understood(watched, rows, effort)[1]
         return hand_seen(self.scene.body, values)[: len(watched.sensed)]
 
+    def recalled(self, watched: Watched) -> Float[ndarray, " N"]:
+        """Return the initial state of a whole demonstration, few steps from learned motions."""
+        effort = {"iterations": FORETELLING, "starts": 0}
+        return self._understood(watched, len(watched.sensed), effort)[0]
+
     def _understood(
         self, watched: Watched, rows: int, effort: dict[str, int]
     ) -> tuple[Float[ndarray, " N"], Float[ndarray, "R D"]]:

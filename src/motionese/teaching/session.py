@@ -1,7 +1,7 @@
 """A teaching session: what a person does with the robot, and what becomes of both."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,6 +22,7 @@ from motionese.imitation import (
     watch,
 )
 from motionese.teaching.claim import claim_on
+from motionese.teaching.emergence import Emergence, emergence_of
 from motionese.teaching.lesson import Lesson, kept_practice
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook, Source
 from motionese.teaching.practice import Report, practised
@@ -59,7 +60,8 @@ class Standing:
 
     No two learners of a session have the same number; `observed` is what was shown last, `results`
     what this learner's last try of every motion came to: those of others, as the notebook keeps
-    them, say nothing of what it can do.
+    them, say nothing of what it can do. `emerged` is what had emerged in its learners, see
+    `Teaching.measured`.
     """
 
     learner: Learner
@@ -67,6 +69,7 @@ class Standing:
     notebook: Notebook
     observed: Observation | None = None
     results: Mapping[str, Result] = field(default_factory=dict)
+    emerged: tuple[Emergence, ...] = ()
 
 
 class Teaching:
@@ -88,10 +91,11 @@ class Teaching:
         number: int = 1,
         numbers: int = 1,
         grows: bool = True,
+        emerged: tuple[Emergence, ...] = (),
     ) -> None:
         """Begin, or go on with a learner of a number, when so many numbers were given."""
         self.scene, self.numbers, self.grows = scene, numbers, grows
-        self.standing = Standing(learner, number, notebook or Notebook())
+        self.standing = Standing(learner, number, notebook or Notebook(), emerged=emerged)
         self.recogniser = Recogniser(scene, learner)
 
     @property
@@ -108,6 +112,11 @@ class Teaching:
     def observed(self) -> Observation | None:
         """What it was shown last, if anything."""
         return self.standing.observed
+
+    @property
+    def emerged(self) -> tuple[Emergence, ...]:
+        """What has emerged so far, the latest last; not of learners that were taken back."""
+        return tuple(e for e in self.standing.emerged if e.learner <= self.standing.number)
 
     @property
     def can_grow(self) -> bool:
@@ -300,6 +309,13 @@ class Teaching:
         changes = [Change(*each) for each in zip(known, before, after, strict=True)]
         self._note(Learning(0, loop, began, 1, tuple(changes)))
         return changes
+
+    def measured(self) -> Generator[None, None, None]:
+        """Measure what has emerged in the network, if that is not known; yields between parts."""
+        number, known = self.standing.number, self.emerged
+        if not known or known[-1].learner != number:
+            found = yield from emergence_of(self.scene, self.learner, number, self.recogniser)
+            self.standing = replace(self.standing, emerged=(*known, found))
 
     def return_to(self, standing: Standing) -> None:
         """Take everything back that has changed since."""

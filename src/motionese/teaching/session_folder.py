@@ -30,6 +30,7 @@ from motionese.imitation import (
     write_learner,
 )
 from motionese.recordings import write
+from motionese.teaching.emergence import Direction, Emergence, Following, Reading
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook
 from motionese.teaching.session import Teaching
 from motionese.teaching.session_contents import LONGEST_NAME, SESSION, Growth, origins, put_away
@@ -134,6 +135,7 @@ class SessionFolder:
                 learned=tuple(_learning(each) for each in facts["learned"]),
                 next=int(facts["next"]),
             )
+            emerged = tuple(_emergence(each) for each in facts.get("emerged", ()))
         if begin and begin not in {self.began, *origins(self.path)}:
             raise StorageError(
                 f"{self.path}: this session began from {self.began}, not from {begin}; "
@@ -150,6 +152,7 @@ class SessionFolder:
             number=number,
             numbers=numbers,
             grows=self._may_grow,
+            emerged=emerged,
         )
 
     def save(self, teaching: Teaching) -> None:
@@ -214,6 +217,7 @@ class SessionFolder:
             "next": teaching.notebook.next,
             "entries": entries,
             "learned": [asdict(each) for each in teaching.notebook.learned],
+            "emerged": [asdict(each) for each in teaching.emerged],
             "settings": settings,
         }
 
@@ -264,6 +268,17 @@ def _robot(facts: dict[str, Any]) -> tuple[str, Growth]:
 
 def _learning(facts: dict[str, Any]) -> Learning:
     return Learning(**{**facts, "changes": tuple(Change(**each) for each in facts["changes"])})
+
+
+def _emergence(facts: dict[str, Any]) -> Emergence:
+    return Emergence(
+        learner=facts["learner"],
+        levels=tuple(facts["levels"]),
+        directions=tuple(Direction(**each) for each in facts["directions"]),
+        first=Following(**facts["first"]),
+        order=Following(**facts["order"]),
+        read=tuple(Reading(**each) for each in facts["read"]),
+    )
 
 
 @contextmanager

@@ -62,7 +62,7 @@ def test_a_page_is_told_all_it_needs(client):
     )
     assert len(scene["robot"]["pose"]) == 7 * len(scene["robot"]["bodies"])
     assert [c["unit"] for c in scene["channels"]] == ["rad"] * 4 + ["px"] * 2
-    assert session["phase"] == 1 and session["can_grow"] and not session["can_map"]
+    assert session["phase"] == 1 and session["can_grow"]
 
 
 def test_drawing_understanding_verdict_imitation_learning(client, session):
@@ -171,6 +171,16 @@ def test_a_second_page_is_told_and_may_take_over(client):
             assert own.hear("told")["kind"] == "refusal"
 
 
+def test_what_has_emerged_is_told_when_there_is_time_and_to_every_page(client):
+    with page(client) as own:
+        told = own.hear("emergence")
+    assert len(told["directions"]) == 5 and told["levels"] == ["io", "cf"]
+    assert {d["primitive"]: d["learned"] for d in told["directions"]}["LL ↑"]
+    assert not told["slow"] and "no slow level" in told["first"]["missing"]
+    with page(client) as other:
+        assert other.hear("emergence") == told
+
+
 @pytest.mark.slow
 def test_undo_and_growth_and_the_map(client):
     with page(client) as own:
@@ -179,7 +189,8 @@ def test_undo_and_growth_and_the_map(client):
         own.say({"type": "forget", "entry": number})
         assert number not in [e["entry"] for e in idle(own)["notebook"]]
         own.say({"type": "map"})
-        assert own.hear("told", where=lambda m: "no slow level" in m["sentence"])
+        fast = own.hear("map")
+        assert (fast["level"], fast["slow"]) == ("cf", False), "there is no slow level yet"
         show(own, "UR ↓")
         own.say({"type": "learn"})
         own.hear("learned")
@@ -191,10 +202,13 @@ def test_undo_and_growth_and_the_map(client):
         assert idle(own)["phase"] == 2
         own.say({"type": "map"})
         drawn = own.hear("map")
-        assert set(map(len, drawn["primitives"].values())) == {len(drawn["axis"]) ** 2}
-        idle(own)
+        assert (drawn["level"], drawn["slow"]) == ("cs", True)
+        for strokes in drawn["primitives"].values():
+            (first, second), points = strokes, len(drawn["axis"]) ** 2
+            assert {len(s[of]) for s in (first, second) for of in ("direction", "way")} == {points}
         own.say({"type": "hover", "slow": [0.5, -1.0], "primitive": "UR ↓"})
-        assert len(own.hear("hovered")["path"]) == 28
+        hovered = own.hear("hovered")
+        assert len(hovered["path"]) == 28 and hovered["slow"] == [0.5, -1.0]
 
 
 @pytest.mark.slow

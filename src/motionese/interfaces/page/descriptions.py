@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -16,8 +17,9 @@ from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
 from motionese.teaching.claim import Claim
+from motionese.teaching.emergence import CLEAR, Emergence
 from motionese.teaching.frames import Film
-from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.interactive_map import InteractiveMap, Strokes
 from motionese.teaching.lesson import Lesson, growth_in_words
 from motionese.teaching.notebook import Change, Entry, Notebook
 from motionese.teaching.online_recogniser import Understanding
@@ -119,7 +121,6 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
         "notebook": entries,
         **_curves(teaching),
         "can_grow": teaching.can_grow,
-        "can_map": InteractiveMap.possible(teaching),
         "shown": observed.entry.number if observed else None,
         "watched": listed(view.of_points(observed.watched.path)) if observed else [],
         "suggest": suggestion,
@@ -329,10 +330,56 @@ def progress_message(what: str, done: int, of: int, now: Progress) -> Answer:
 
 
 def map_message(drawn: InteractiveMap) -> Answer:
-    """Return the map of the slow initial states."""
-    points = [{"motion": motion, "slow": slow} for motion, slow in drawn.points]
-    places = {"axis": drawn.axis, "primitives": drawn.grids, "points": points}
-    return {"type": "map", "level": drawn.level, **places}
+    """Return the map of initial states: by primitive the first stroke, and the one after it."""
+    return {
+        "type": "map",
+        "level": drawn.plane.level,
+        "below": drawn.below,
+        "slow": drawn.plane.slow,
+        "axis": drawn.axis,
+        "points": [{"motion": motion, "at": at} for motion, at in drawn.points],
+        "primitives": {
+            name: [_strokes(each) for each in strokes] for name, strokes in drawn.strokes.items()
+        },
+    }
+
+
+def _strokes(strokes: Strokes) -> Answer:
+    """Return one stroke from every point: its direction [rad], length as a share, and way."""
+    return {
+        "known": list(strokes.known),
+        "direction": np.round(strokes.directions, 2).tolist(),
+        "length": np.round(strokes.lengths, 2).tolist(),
+        "way": list(strokes.ways),
+    }
+
+
+def emergence_message(emerged: Sequence[Emergence]) -> Answer:
+    """Return what has emerged in the network by now, and how it came to that."""
+    now = emerged[-1]
+    history = [{d.primitive: round(d.share, DIGITS) for d in e.directions} for e in emerged]
+    return {
+        "type": "emergence",
+        "levels": list(now.levels),
+        "slow": now.slow,
+        "clear": CLEAR,
+        "sentence": now.sentence,
+        "directions": [
+            {
+                "primitive": each.primitive,
+                "share": round(each.share, DIGITS),
+                "newborn": round(each.newborn, DIGITS),
+                "learned": each.learned,
+                "clear": each.clear,
+                "sentence": each.sentence(now.slow),
+                "history": [shares[each.primitive] for shares in history],
+            }
+            for each in now.directions
+        ],
+        "first": asdict(now.first),
+        "order": asdict(now.order),
+        "read": [asdict(each) for each in now.read],
+    }
 
 
 def listed(values: Float[ndarray, "*shape"]) -> list[Any]:

@@ -22,9 +22,9 @@ from motionese.interfaces.page.messages import (
 from motionese.interfaces.page.supervisor import Supervisor
 
 POLICY, MOST_WAITING = 1008, 4096
-KEPT = ("scene", "session", "robots", "map")
+KEPT = ("scene", "session", "robots", "map", "emergence")
 """What a page is told when it comes: the last of each."""
-OUTDATING = ("learned", "grown", "begun")
+OUTDATING = ("learned", "grown", "begun", "emergence")
 """What a map is not true after."""
 IN_USE = "Another page is teaching this robot. You can take over: its page is told so."
 
@@ -126,6 +126,8 @@ class Hub:
             self.worker = message
         if kind in OUTDATING:
             self._last.pop("map", None)
+        if kind == "begun":
+            self._last.pop("emergence", None)
         if kind in KEPT:
             self._last[kind] = message
         if self._owner is not None:

@@ -80,7 +80,12 @@ class Robot:
         body, task = self.teaching.scene.body, self.teaching.scene.task
         self._view, self._geometry = View(body, task), Geometry(body.model)
         self.pen = Pen(self.teaching, self._view, self._geometry, self._tell)
+        self._network_changed()
+
+    def _network_changed(self) -> None:
+        """Forget what was measured of another network; what is to be, is when there is time."""
         self._map: InteractiveMap | None = None
+        self._reflection: Iterator[None] | None = self._reflected()
 
     def introduce(self) -> None:
         """Tell what the page needs to begin with."""
@@ -144,6 +149,26 @@ class Robot:
             self._hint(str(error), "error")
         self._end()
         return None
+
+    @property
+    def at_leisure(self) -> bool:
+        """Whether there is something to `reflect` on, and nobody who would wait meanwhile."""
+        return self._reflection is not None and self.going is None and not self.pen.down
+
+    def reflect(self) -> None:
+        """Go on, for some hundredths of a second, to measure what has emerged in the network."""
+        try:
+            next(self._reflection or iter(()))
+        except (StopIteration, MotioneseError) as ended:
+            self._reflection = None
+            if isinstance(ended, MotioneseError):
+                self._hint(str(ended), "error")
+
+    def _reflected(self) -> Iterator[None]:
+        yield from self.teaching.measured()
+        self._folder.save(self.teaching)
+        self._tell(descriptions.emergence_message(self.teaching.emerged))
+        self._robots.tell_all()
 
     def _end(self) -> None:
         self.going = None
@@ -295,29 +320,28 @@ class Robot:
         except (StoppedError, MotioneseError):
             self.teaching.return_to(before)
             raise
-        self._map = None
+        self._network_changed()
         self._save()
         return result
 
     def _forget(self, message: dict[str, Any]) -> Iterator[float]:
         said = self.teaching.forget(message["entry"], self._folder.learner)
-        self._map = None
+        self._network_changed()
         self._save()
         self._hint(said or NOT_THERE)
         yield 0.0
 
     def _draw_map(self, message: dict[str, Any]) -> Iterator[float]:
-        if not InteractiveMap.possible(self.teaching):
-            self._hint("There is no slow level yet: let the network grow first.")
-            return
-        self.tell_session("drawing the map")
-        yield 0.0
-        self._map = self._map or InteractiveMap(self.teaching)
+        teaching = self.teaching
+        self._map = self._map or InteractiveMap(teaching.scene, teaching.learner)
         self._tell(descriptions.map_message(self._map))
+        yield 0.0
 
     def _hover(self, message: dict[str, Any]) -> None:
         if self._map is None or self._busy:
             return
         path = self._map.motion(message["primitive"], message["slow"])
         if path is not None:
-            self._tell({"type": "hovered", "path": descriptions.listed(self._view.of_points(path))})
+            at = {"slow": message["slow"], "primitive": message["primitive"]}
+            seen = descriptions.listed(self._view.of_points(path))
+            self._tell({"type": "hovered", **at, "path": seen})

@@ -11,6 +11,7 @@ from motionese.interfaces.page.messages import Answer, Tell
 from motionese.teaching.notebook import Entry
 from motionese.teaching.packed_session import SUFFIX
 from motionese.teaching.school import MOST, Pupil, School, exchange, lessons, lessons_left
+from motionese.teaching.session import Teaching
 from motionese.teaching.session_contents import OPENED
 
 if TYPE_CHECKING:
@@ -131,8 +132,18 @@ def _facts(pupil: Pupil) -> Answer:
         "grows": pupil.folder.grows,
         "levels": [level.name for level in network.levels],
         "lessons": len(lessons(notebook)),
+        "clear": _clear(pupil.teaching),
         **_compared(pupil),
     }
+
+
+def _clear(teaching: Teaching) -> str:
+    """Return how many strokes are clear in a network with a slow level, if that is measured."""
+    emerged = teaching.emerged
+    if not emerged or emerged[-1].learner != teaching.standing.number or not emerged[-1].slow:
+        return ""
+    clear = [each.clear for each in emerged[-1].directions]
+    return f"{sum(clear)} of {len(clear)}"
 
 
 def _compared(pupil: Pupil) -> Answer:

@@ -83,6 +83,7 @@ def _serve(
     due = 0.0
     while True:
         waits = [robot.pen.wait(), None if robot.going is None else due - time.monotonic()]
+        waits.append(0.0 if robot.at_leisure else None)
         known = [max(0.0, wait) for wait in waits if wait is not None]
         if waiting or connection.poll(min(known, default=None)):
             robot.take(waiting.popleft() if waiting else heard())
@@ -92,3 +93,5 @@ def _serve(
         if robot.going is not None and due <= time.monotonic():
             pause = robot.go_on()
             due = time.monotonic() + (pause or 0.0)
+        elif robot.at_leisure:
+            robot.reflect()

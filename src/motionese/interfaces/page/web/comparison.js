@@ -11,6 +11,7 @@ const ROWS = [
   ["Grows", ({ grows }) => GROWS[grows]],
   ["Levels open", ({ levels }) => levels.map(titled).join(", ")],
   ["Lessons", ({ lessons }) => lessons],
+  ["Clear strokes", ({ clear }) => clear || UNKNOWN],
   ["Can do", ({ can, of }) => (can === null ? UNKNOWN : `${can} of ${of}`)],
   ["Mean error", ({ error_cm: error }) => (error === null ? UNKNOWN : cm(error))],
 ];

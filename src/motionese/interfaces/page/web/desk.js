@@ -10,15 +10,19 @@ const TOAST_MS = 7000;
 const LONG = ["learning", "growing", "comparing"];
 const PHASES = { 1: "Phase 1: single strokes", 2: "Phase 2: sequences" };
 
-/** Let every button do what it is for; `touched()` is called before, `seen()` where one must look. */
-export function furnish(send, touched, seen, takeOver) {
+/**
+ * Let every button do what it is for; `touched()` is called before, `seen()` where one must look,
+ * `explore(on)` where the map is to be seen, or the robot again.
+ */
+export function furnish(send, touched, seen, explore, takeOver) {
   const pressed = {
     demonstrate: () => send({ type: "demonstrate", motion: part("motions").value }),
     imitate: () => send({ type: "imitate" }) && seen(),
     learn: () => send({ type: "learn" }) && seen(),
     grow: () => send({ type: "grow" }),
     compare: () => send({ type: "compare" }),
-    "map-draw": () => send({ type: "map" }),
+    "map-draw": () => explore(true),
+    "map-close": () => explore(false),
     stop: () => send({ type: "stop" }),
     begin: () => part("begin-dialog").showModal(),
     "take-over": takeOver,
@@ -66,7 +70,7 @@ export function tidy(now) {
     imitate: free && session.shown !== null,
     learn: free && session.shown !== null,
     grow: free && session.can_grow,
-    "map-draw": free && session.can_map,
+    "map-draw": free,
     stop: Boolean(session.busy),
   };
   for (const [id, on] of Object.entries(enabled)) allow(part(id), on);

@@ -5,10 +5,11 @@ import { showComparison } from "./comparison.js";
 import { showCurves } from "./curves.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
 import { onScheme, part, prefersStillness, say } from "./dom.js";
+import { showEmergence } from "./emergence.js";
 import { Ghost } from "./ghost.js";
 import { Lesson } from "./lesson.js";
 import { Live } from "./live.js";
-import { SlowMap } from "./map.js";
+import { StateMap } from "./map.js";
 import { showGrown, showNotebook } from "./notebook.js";
 import { pathAlong } from "./paths.js";
 import { Playback } from "./playback.js";
@@ -45,7 +46,6 @@ const now = {
     suggest: "",
     shown: null,
     can_grow: false,
-    can_map: false,
   },
   robots: 0,
   step: "",
@@ -74,12 +74,7 @@ const lesson = new Lesson(playback, (learned) => {
   say(part("attempt"), `${learned.motion}: ${learned.after_cm.toFixed(1)} cm off`);
   refresh();
 });
-const map = new SlowMap(
-  part("map"),
-  part("map-primitive"),
-  (slow, primitive) => send({ type: "hover", slow, primitive }),
-  () => view.mark({ hovered: null }),
-);
+const map = new StateMap((slow, primitive) => send({ type: "hover", slow, primitive }));
 const showing = new Showing(view, {
   may() {
     if (canWatch() && now.session.busy) tell("One moment: the robot is busy. You can press Stop.");
@@ -152,7 +147,10 @@ const heard = {
     if (!ghost.plays) judge();
   },
   frames(message) {
-    if (message.from === 0) playback.close();
+    if (message.from === 0) {
+      explore(false);
+      playback.close();
+    }
     stage.perform(message);
   },
   performed(message) {
@@ -165,6 +163,7 @@ const heard = {
   },
   progress: showProgress,
   practice(message) {
+    explore(false);
     view.mark({ recognised: null, next: null });
     lesson.take(message);
   },
@@ -172,6 +171,7 @@ const heard = {
     lesson.learned(message);
   },
   replayed(message) {
+    explore(false);
     clearResult();
     Object.assign(now, { replayed: message, step: "replayed" });
     showMotion(message.motion);
@@ -180,7 +180,7 @@ const heard = {
     say(part("attempt"), `${motion}, try ${attempt}: ${error.toFixed(1)} cm off`);
     playback.load(message);
     if (!prefersStillness()) playback.play(1);
-    toTheStage();
+    toTheStage(part("robot"));
   },
   grown(message) {
     Object.assign(now, { grown: message, step: "grown" });
@@ -190,8 +190,14 @@ const heard = {
   map(message) {
     map.take(message);
   },
-  hovered({ path }) {
-    if (map.cell) view.mark({ hovered: path });
+  hovered(message) {
+    if (explores() && map.isChosen(message)) view.mark({ hovered: message.path });
+  },
+  emergence(message) {
+    say(part("emergence-note"), message.sentence);
+    showEmergence(part("emergence"), message);
+    map.clear();
+    if (explores()) send({ type: "map" });
   },
   worker(message) {
     if (message.state === "ready" && now.worker.state === "restarted") {
@@ -241,11 +247,32 @@ function leave() {
 /** Forget what was shown of another robot. */
 function beginAnew() {
   Object.assign(now, { touched: false, learned: null, grown: null });
+  explore(false);
   clearResult();
   say(part("attempt"), "What the robot does");
   stage.clear();
   map.clear();
   part("grown").hidden = true;
+}
+
+/** Whether the map is seen, in the robot's place. */
+const explores = () => !part("explore").hidden;
+
+/** Show the map beside the eye view, or the robot again. */
+function explore(on) {
+  if (on === explores()) return;
+  part("explore").hidden = !on;
+  part("body").hidden = on;
+  part("stage").classList.toggle("exploring", on);
+  if (on) {
+    if (!map.map) send({ type: "map" });
+    part("map").focus({ preventScroll: true });
+    toTheStage(part("view"), part("map"));
+  } else {
+    if (document.activeElement === document.body) part("map-draw").focus({ preventScroll: true });
+    view.mark({ hovered: null });
+  }
+  refresh();
 }
 
 function touched() {
@@ -322,10 +349,10 @@ function remember() {
     view.mark({ drawn: now.session.watched });
 }
 
-/** Bring the robot into the window where that is too low for it, as on a phone. */
-function toTheStage() {
-  const { top, bottom } = part("robot").getBoundingClientRect();
-  if (top >= 0 && bottom <= innerHeight) return;
+/** Bring the stage into the window where some parts of it are not, as on a phone. */
+function toTheStage(...wanted) {
+  const places = wanted.map((one) => one.getBoundingClientRect());
+  if (places.every(({ top, bottom }) => top >= 0 && bottom <= innerHeight)) return;
   part("stage").scrollIntoView({
     behavior: prefersStillness() ? "auto" : "smooth",
     block: "start",
@@ -354,6 +381,7 @@ function refresh() {
       next: view.marks.next?.length,
       done: view.marks.done?.length,
       first: view.marks.first?.length,
+      hovered: view.marks.hovered?.length,
     },
     practising: lesson.plays,
     drawing: showing.drawing,
@@ -367,7 +395,8 @@ function refresh() {
   });
 }
 
-furnish(send, touched, toTheStage, () => live.greet(true));
+const watch = () => toTheStage(part("robot"));
+furnish(send, touched, watch, explore, () => live.greet(true));
 robotsBegun(send);
 openable(send, tell);
 onScheme(() => view.refresh());
@@ -397,6 +426,8 @@ window.teach = {
     at: playback.at,
     plays: playback.plays,
     ghostly: Boolean(playback.first),
+    point: map.cell,
+    hovered: view.marks.hovered ?? null,
   }),
   /** Where a place [x, y] of the view lies in the window. */
   pixel(place) {

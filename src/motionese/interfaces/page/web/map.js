@@ -1,123 +1,193 @@
-// The map of the slow initial states: which way the hand goes from every point of it.
+// The map of initial states, beside the eye view: which way does the hand go from each of them?
 
-import { made, colours, fitted, onScheme, titled } from "./dom.js";
+import { made, colours, fitted, onScheme, part, say, titled } from "./dom.js";
+import { colourAt, placeInWords, primitivesOf, task } from "./task.js";
 
-const SEND_EVERY_MS = 120;
-const MARGIN = 26;
+const SEND_EVERY_MS = 60;
+/** Room for the axes' names, and for what lies at the rim [px]. */
+const [MARGIN, RIM] = [30, 8];
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+/** Colours of ways to places where nothing comes about. */
+const PAINTS = ["orange", "pink", "sky", "amber"];
+const ORDINALS = ["first", "second"];
+/** What a stroke does that goes no way of the task. */
+const ASTRAY = { elsewhere: "another way", hardly: "it hardly moves" };
+/** Labels keep so far from points and from each other [px]. */
+const [BESIDE, HIGH] = [9, 15];
 
-export class SlowMap {
-  /** `hovered(slow, primitive)` is called for a point that is pointed at, `left()` when none is. */
-  constructor(canvas, choice, hovered, left) {
-    Object.assign(this, { canvas, choice, hovered, left, map: null, cell: null });
-    choice.addEventListener("change", () => this.draw());
-    canvas.addEventListener("pointermove", (event) => this.#point(this.#cellAt(event)));
-    canvas.addEventListener("pointerdown", (event) => this.#point(this.#cellAt(event)));
-    canvas.addEventListener("pointerleave", () => this.#leave());
-    canvas.addEventListener("blur", () => this.#leave());
-    canvas.addEventListener("keydown", (event) => {
-      if (!(event.key in STEPS) || !this.map) return;
-      const last = this.map.axis.length - 1;
-      const middle = [Math.round(last / 2), Math.round(last / 2)];
-      this.#point(
-        (this.cell ?? middle).map((v, i) => Math.min(Math.max(v + STEPS[event.key][i], 0), last)),
-      );
-      event.preventDefault();
-    });
-    new ResizeObserver(() => this.draw()).observe(canvas);
+export class StateMap {
+  /** `wanted(at, primitive)` is called for a point whose motion is wanted. */
+  constructor(wanted) {
+    this.canvas = part("map");
+    [this.choice, this.which] = [part("map-primitive"), part("map-stroke")];
+    Object.assign(this, { wanted, map: null, cell: null, places: [] });
+    for (const choice of [this.choice, this.which])
+      choice.addEventListener("change", () => this.#ask());
+    for (const name of ["pointermove", "pointerdown"])
+      this.canvas.addEventListener(name, (event) => this.#point(this.#cellAt(event)));
+    this.canvas.addEventListener("focus", () => this.#begin());
+    this.canvas.addEventListener("keydown", (event) => this.#key(event));
+    new ResizeObserver(() => this.draw()).observe(this.canvas);
     onScheme(() => this.draw());
   }
 
+  /** Take a `map`; what was chosen stays so. */
   take(map) {
+    const chosen = this.choice.value;
     this.map = map;
     const names = Object.keys(map.primitives);
-    const chosen = names.includes(this.choice.value) ? this.choice.value : names[0];
     this.choice.replaceChildren(
       ...names.map((name) => made("option", "", `State of ${name}`, { value: name })),
     );
-    this.choice.value = chosen;
-    this.choice.disabled = !names.length;
+    if (names.includes(chosen)) this.choice.value = chosen;
+    else this.#chooseForks();
+    const [level, below] = [titled(map.level), titled(map.below)];
+    const title = map.slow ? `The same ${below}, another ${level}` : `Another ${level}`;
+    say(part("map-title"), `${title}: which way?`);
+    this.#ask();
+  }
+
+  /** Forget the map: it is of another network. */
+  clear() {
+    this.map = this.cell = null;
+    say(part("map-told"), "");
     this.draw();
   }
 
-  /** Forget the map: it is another robot's. */
-  clear() {
-    this.map = this.cell = null;
-    this.choice.replaceChildren();
-    this.choice.disabled = true;
-    this.draw();
+  /** Whether a motion is of the point that is chosen. */
+  isChosen({ slow, primitive }) {
+    return this.cell && String(slow) === String(this.#at()) && primitive === this.choice.value;
   }
 
   draw() {
     const { context, width } = fitted(this.canvas);
+    if (!width) return;
     const c = colours();
     context.clearRect(0, 0, width, width);
     context.font = `12px ${getComputedStyle(document.body).fontFamily}`;
-    context.fillStyle = c.soft;
-    context.textAlign = "center";
+    Object.assign(context, { fillStyle: c.soft, textAlign: "center", textBaseline: "alphabetic" });
     if (!this.map) {
-      context.fillText("Not drawn yet", width / 2, width / 2);
+      context.fillText("Drawing the map …", width / 2, width / 2);
       return;
     }
-    context.fillText(`first unit of ${titled(this.map.level)}₀`, width / 2, width - 8);
-    context.save();
-    context.rotate(-Math.PI / 2);
-    context.fillText("second unit", -width / 2, 14);
-    context.restore();
+    this.#axes(context, width);
     this.#arrows(context, c);
-    this.#points(context, c);
+    this.#points(context, c, width);
   }
 
-  #arrows(context, c) {
-    const { axis, primitives } = this.map;
-    const paint = [c.orange, c.blue, c.pink, c.sky];
-    const long = 0.86 * (this.#pixel([1, 0])[0] - this.#pixel([0, 0])[0]);
-    const arrows = primitives[this.choice.value];
-    // As long as a cell where the hand goes as far as in most places.
-    const far = arrows.map(({ extent }) => extent).toSorted((a, b) => a - b)[
-      Math.floor(0.7 * arrows.length)
-    ];
-    arrows.forEach(({ direction, extent }, at) => {
-      const [i, k] = [Math.floor(at / axis.length), at % axis.length];
-      const [x, y] = this.#pixel([i, k]);
-      const half = (long / 2) * Math.min(Math.max(extent / far, 0.12), 1);
-      const [dx, dy] = [half * Math.cos(direction), -half * Math.sin(direction)];
-      // Quarters of the circle: left, down, right, up.
-      const quarter = Math.round((direction - Math.PI) / (Math.PI / 2) + 8) % 4;
-      const chosen = this.cell && this.cell[0] === i && this.cell[1] === k;
-      context.strokeStyle = chosen ? c.ink : paint[quarter];
-      context.lineWidth = chosen ? 3 : 1.6;
-      context.beginPath();
-      context.moveTo(x - dx, y - dy);
-      context.lineTo(x + dx, y + dy);
-      for (const turn of [2.6, -2.6]) {
-        context.moveTo(x + dx, y + dy);
-        context.lineTo(
-          x + dx + 0.7 * half * Math.cos(direction + turn),
-          y + dy - 0.7 * half * Math.sin(direction + turn),
-        );
-      }
-      context.stroke();
-    });
-    this.canvas.setAttribute(
-      "aria-label",
-      `Map of the slow initial states, ${axis.length} by ${axis.length}; arrow keys move from point to point`,
+  /** Return the stroke that the arrows show. */
+  get #strokes() {
+    return this.map.primitives[this.choice.value][Number(this.which.value)];
+  }
+
+  #ask() {
+    if (!this.map) return;
+    this.#note();
+    this.#ways();
+    this.draw();
+    if (this.cell) this.#want();
+    else this.#begin();
+  }
+
+  /** Begin in the middle where keys would move a point. */
+  #begin() {
+    const isFocused = document.activeElement === this.canvas;
+    if (this.map && !this.cell && isFocused) this.#point(this.#middle());
+  }
+
+  #note() {
+    const { level, below, slow, points } = this.map;
+    const what = slow
+      ? `${titled(below)} is held as the robot recalls it for ${this.choice.value}; ` +
+        `every arrow is another ${titled(level)}.`
+      : `There is no slow level yet, so this is a map of ${titled(level)}, ` +
+        (points.length ? "over what was learned." : "of which nothing was learned.");
+    const marks = points.length ? " Dots are learned motions." : "";
+    say(part("map-note"), `${what}${marks} Point at an arrow to see its motion.`);
+  }
+
+  /** Choose what may go most ways: how it begins, or what a slow level decides, how it goes on. */
+  #chooseForks() {
+    const which = this.map.slow ? 1 : 0;
+    const ways = Object.entries(this.map.primitives).map(([name, strokes]) => [
+      name,
+      strokes[which].known.length,
+    ]);
+    [this.choice.value] = ways.toSorted((a, b) => b[1] - a[1])[0];
+    this.which.value = String(which);
+  }
+
+  /** Say which way how much of the map goes. */
+  #ways() {
+    const { known, way } = this.#strokes;
+    const said = [...known, ...Object.keys(ASTRAY)].map((name) => [
+      name,
+      way.filter((each) => each === name).length / way.length,
+    ]);
+    part("map-ways").replaceChildren(
+      ...said
+        .filter(([name, share]) => share || known.includes(name))
+        .map(([name, share]) => {
+          const swatch = made("i", `swatch ${paintOf(name)}`, "", { "aria-hidden": "true" });
+          return made("li", "", [swatch, wayInWords(name), made("b", "", ` ${percent(share)}`)]);
+        }),
     );
   }
 
-  #points(context, c) {
-    for (const { motions, slow } of together(this.map.points ?? [])) {
-      const [x, y] = this.#pixel(slow.map((value) => this.#index(value)));
-      const isRight = x > this.canvas.clientWidth / 2;
-      const label = motions.length > 1 ? `${motions[0]} +${motions.length - 1}` : motions[0];
+  #axes(context, width) {
+    const { axis, level, slow } = this.map;
+    const [unit, far] = [slow ? "unit" : "axis", axis.at(-1).toFixed(0)];
+    const middle = MARGIN + (width - MARGIN - RIM) / 2;
+    context.fillText(`first ${unit} of ${titled(level)}₀, −${far} to ${far}`, middle, width - 9);
+    context.save();
+    context.rotate(-Math.PI / 2);
+    context.fillText(`second ${unit}`, -(width - middle), 18);
+    context.restore();
+  }
+
+  #arrows(context, c) {
+    const { axis } = this.map;
+    const { direction, length, way } = this.#strokes;
+    const long = 0.86 * (this.#pixel([1, 0])[0] - this.#pixel([0, 0])[0]);
+    direction.forEach((angle, at) => {
+      const cell = [Math.floor(at / axis.length), at % axis.length];
+      const isChosen = String(cell) === String(this.cell);
+      const half = (long / 2) * Math.min(Math.max(length[at], 0.15), 1);
+      context.strokeStyle = c[paintOf(way[at])];
+      context.lineWidth = isChosen ? 4 : 2;
+      arrow(context, this.#pixel(cell), angle, half);
+      if (!isChosen) return;
+      const [x, y] = this.#pixel(cell);
+      Object.assign(context, { strokeStyle: c.ink, lineWidth: 2 });
+      context.strokeRect(x - long / 1.7, y - long / 1.7, long / 0.85, long / 0.85);
+    });
+  }
+
+  /** Mark where the learned motions lie; a label that finds no room is left out, and told. */
+  #points(context, c, width) {
+    const taken = [];
+    this.places = together(this.map.points).map((place) => ({
+      ...place,
+      pixel: this.#pixel(place.at.map((value) => this.#index(value))),
+    }));
+    for (const { pixel } of this.places) {
       Object.assign(context, { fillStyle: c.ink, strokeStyle: c.card, lineWidth: 3 });
       context.beginPath();
-      context.arc(x, y, 5, 0, 2 * Math.PI);
+      context.arc(...pixel, 5, 0, 2 * Math.PI);
       context.stroke();
       context.fill();
-      context.textAlign = isRight ? "right" : "left";
-      context.strokeText(label, x + (isRight ? -8 : 8), y + 4);
-      context.fillText(label, x + (isRight ? -8 : 8), y + 4);
+      taken.push([pixel[0] - 6, pixel[1] - 6, 12, 12]);
+    }
+    for (const { motions, pixel } of this.places) {
+      const [first, ...others] = motions;
+      const label = others.length ? `${first} +${others.length}` : first;
+      const room = roomFor(pixel, context.measureText(label).width, taken, width);
+      if (!room) continue;
+      taken.push(room);
+      Object.assign(context, { fillStyle: c.card, textAlign: "left", globalAlpha: 0.85 });
+      context.fillRect(room[0] - 2, room[1], room[2] + 4, room[3]);
+      Object.assign(context, { fillStyle: c.ink, globalAlpha: 1 });
+      context.fillText(label, room[0], room[1] + HIGH - 4);
     }
   }
 
@@ -127,52 +197,141 @@ export class SlowMap {
     return ((value - axis[0]) / (axis.at(-1) - axis[0])) * (axis.length - 1);
   }
 
+  get #size() {
+    return (this.canvas.clientWidth - MARGIN - RIM) / this.map.axis.length;
+  }
+
   #pixel([i, k]) {
-    const cells = this.map.axis.length;
-    const cell = (this.canvas.clientWidth - MARGIN - 8) / cells;
-    return [MARGIN + cell * (i + 0.5), 8 + cell * (cells - k - 0.5)];
+    return [
+      MARGIN + this.#size * (i + 0.5),
+      RIM + this.#size * (this.map.axis.length - k - 0.5),
+    ];
   }
 
   #cellAt(event) {
     if (!this.map) return null;
     const cells = this.map.axis.length;
-    const cell = (this.canvas.clientWidth - MARGIN - 8) / cells;
     const at = [
-      Math.floor((event.offsetX - MARGIN) / cell),
-      cells - 1 - Math.floor((event.offsetY - 8) / cell),
+      Math.floor((event.offsetX - MARGIN) / this.#size),
+      cells - 1 - Math.floor((event.offsetY - RIM) / this.#size),
     ];
     return at.every((v) => v >= 0 && v < cells) ? at : null;
+  }
+
+  #middle() {
+    const middle = Math.floor(this.map.axis.length / 2);
+    return [middle, middle];
+  }
+
+  #key(event) {
+    if (!(event.key in STEPS) || !this.map) return;
+    const last = this.map.axis.length - 1;
+    const [from, step] = [this.cell ?? this.#middle(), STEPS[event.key]];
+    this.#point(from.map((v, i) => Math.min(Math.max(v + step[i], 0), last)));
+    event.preventDefault();
   }
 
   #point(cell) {
     if (!cell || String(cell) === String(this.cell)) return;
     this.cell = cell;
     this.draw();
-    // The last point wins; at most so many are asked for a second.
-    this.waiting ??= setTimeout(() => {
-      this.waiting = undefined;
-      if (this.cell)
-        this.hovered(
-          this.cell.map((i) => this.map.axis[i]),
-          this.choice.value,
-        );
-    }, SEND_EVERY_MS);
+    this.#want();
   }
 
-  #leave() {
-    if (!this.cell) return;
-    this.cell = null;
-    this.draw();
-    this.left();
+  /** Return the values of the point that is chosen. */
+  #at() {
+    return this.cell.map((i) => this.map.axis[i]);
+  }
+
+  /** Say what there is at a point, and ask for its motion: at once, and then not too often. */
+  #want() {
+    const { axis, level, primitives } = this.map;
+    const at = this.cell[0] * axis.length + this.cell[1];
+    const ways = primitives[this.choice.value].map(({ way }) => wayInWords(way[at]));
+    const here = this.places.filter(({ at: there }) =>
+      there.every((value, i) => Math.round(this.#index(value)) === this.cell[i]),
+    );
+    const names = here.flatMap(({ motions }) => motions).join(", ");
+    const values = this.#at().map((value) => value.toFixed(1).replace("-", "−"));
+    const learned = names && ` Learned here: ${names}.`;
+    const point = `${titled(level)}₀ = (${values.join(", ")})`;
+    say(part("map-told"), `${point}: ${ways.join(", then ")}.${learned}`);
+    if (this.waiting) return;
+    this.wanted(this.#at(), this.choice.value);
+    const asked = String([...this.cell, this.choice.value]);
+    this.waiting = setTimeout(() => {
+      this.waiting = undefined;
+      if (this.cell && String([...this.cell, this.choice.value]) !== asked) this.#want();
+    }, SEND_EVERY_MS);
   }
 }
+
+const percent = (share) => `${Math.round(100 * share)} %`;
+
+/** Return a way in words: "down, to the right button". */
+function wayInWords(name) {
+  if (name in ASTRAY) return ASTRAY[name];
+  const [{ words, end }] = primitivesOf(name);
+  return `${words}, to ${placeInWords(end)}`;
+}
+
+/** Return the name of a way's colour: that of the place it leads to. */
+function paintOf(name) {
+  if (name in ASTRAY) return "soft";
+  const { end } = primitivesOf(name)[0];
+  const others = Object.keys(task.places).filter((place) => !colourAt(place));
+  return colourAt(end) ?? PAINTS[others.indexOf(end) % PAINTS.length];
+}
+
+function arrow(context, [x, y], angle, half) {
+  const [dx, dy] = [half * Math.cos(angle), -half * Math.sin(angle)];
+  context.lineCap = "round";
+  context.beginPath();
+  context.moveTo(x - dx, y - dy);
+  context.lineTo(x + dx, y + dy);
+  for (const turn of [2.6, -2.6]) {
+    context.moveTo(x + dx, y + dy);
+    context.lineTo(
+      x + dx + 0.7 * half * Math.cos(angle + turn),
+      y + dy - 0.7 * half * Math.sin(angle + turn),
+    );
+  }
+  context.stroke();
+}
+
+/** Return room [x, y, wide, high] for a label beside a point, clear of what is taken. */
+function roomFor([x, y], wide, taken, width) {
+  const rooms = [
+    [x + BESIDE, y - HIGH / 2],
+    [x - BESIDE - wide, y - HIGH / 2],
+    [x - wide / 2, y - BESIDE - HIGH],
+    [x - wide / 2, y + BESIDE],
+    [x + BESIDE, y - HIGH - 4],
+    [x + BESIDE, y + 4],
+    [x - BESIDE - wide, y - HIGH - 4],
+    [x - BESIDE - wide, y + 4],
+  ];
+  return rooms
+    .map((corner) => [...corner, wide, HIGH])
+    .find(
+      (room) =>
+        room[0] >= MARGIN &&
+        room[0] + wide <= width &&
+        room[1] >= 0 &&
+        room[1] + HIGH <= width - MARGIN &&
+        !taken.some((other) => overlap(room, other)),
+    );
+}
+
+const overlap = ([x, y, wide, high], [a, b, broad, tall]) =>
+  x < a + broad && a < x + wide && y < b + tall && b < y + high;
 
 /** Bring motions together whose points lie on each other, so that their names can be read. */
 function together(points) {
   const places = new Map();
-  for (const { motion, slow } of points) {
-    const key = slow.map(Math.round).join();
-    const place = places.get(key) ?? { motions: [], slow };
+  for (const { motion, at } of points) {
+    const key = at.map(Math.round).join();
+    const place = places.get(key) ?? { motions: [], at };
     if (!place.motions.includes(motion)) place.motions.push(motion);
     places.set(key, place);
   }

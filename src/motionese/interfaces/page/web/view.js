@@ -98,7 +98,8 @@ export class View {
     line(over, path(marks.done), { colour: c.green, width: 4 });
     direction(over, path(marks.drawn), { colour: c.ink, rim: c.card });
     if (marks.tip) disc(over, ...this.pixel(marks.tip), 7, c.green);
-    line(over, path(marks.hovered), { colour: c.pink, width: 5, rim: c.card, arrow: true });
+    line(over, path(marks.hovered), { colour: c.ink, width: 4, rim: c.card, arrow: true });
+    direction(over, path(marks.hovered), { colour: c.ink, rim: c.card });
     line(over, path(marks.promise), { colour: c.hand, width: 3, dash: [3, 9], arrow: true });
     line(over, path(marks.shown), { colour: c.hand, width: 4 });
     if (marks.hand) hand(over, this.pixel(marks.hand.slice(-2)), c, this.width / 680);
