@@ -6,6 +6,7 @@ import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.j
 import { onScheme, part, prefersStillness, say } from "./dom.js";
 import { Ghost } from "./ghost.js";
 import { Lesson } from "./lesson.js";
+import { LessonFilm } from "./lesson_film.js";
 import { Live } from "./live.js";
 import { SlowMap } from "./map.js";
 import { showGrown, showNotebook } from "./notebook.js";
@@ -63,7 +64,9 @@ const stage = new Stage(() => view.refresh());
 /** Whether the robot's arm follows the pen. */
 const follows = () => part("follow").checked;
 const playback = new Playback(stage, view, () => refresh());
-const lesson = new Lesson(playback, (learned) => {
+const lessonFilm = new LessonFilm(stage, tell);
+const lesson = new Lesson(playback, (learned, tries) => {
+  lessonFilm.learned(tries, learned, now.session.began);
   Object.assign(now, { learned, step: "learned" });
   showMotion(learned.motion);
   showClaim(learned.claim);
@@ -100,6 +103,7 @@ const heard = {
     now.scene = message;
     takeTask(message.task, message.view.aspect);
     stage.take(message);
+    lessonFilm.take(message);
     view.take((width, height) => stage.seen(message.view.camera, width, height));
     listMotions(message.task.motions);
   },
@@ -229,6 +233,7 @@ function beginAnew() {
   say(part("attempt"), "What the robot does");
   stage.clear();
   map.clear();
+  lessonFilm.drop();
   part("grown").hidden = true;
 }
 
@@ -377,6 +382,7 @@ window.teach = {
     at: playback.at,
     plays: playback.plays,
     ghostly: Boolean(playback.first),
+    film: lessonFilm.made,
   }),
   /** Where a place [x, y] of the view lies in the window. */
   pixel(place) {
