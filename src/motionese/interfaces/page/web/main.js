@@ -21,6 +21,7 @@ import {
   showClaim,
   showMotion,
   showResult,
+  showSaw,
   showUnderstanding,
   showVerdict,
 } from "./verdict.js";
@@ -55,6 +56,7 @@ const now = {
   touched: false,
   pending: null,
   understandings: 0,
+  saw: 0,
 };
 
 const send = (message) => live.send(message);
@@ -133,6 +135,11 @@ const heard = {
       judge();
       refresh();
     });
+  },
+  saw(message) {
+    if (ghost.plays) return;
+    now.saw += 1;
+    showSaw(message);
   },
   verdict(message) {
     now.verdict = now.pending = message;
@@ -349,7 +356,7 @@ function refresh() {
     webcam: showing.filmed,
     keyed: showing.keyed,
     ghost: ghost.plays && now.touched,
-    busy: now.session.busy,
+    busy: now.session.busy || (now.awaited ? "recognising" : ""),
     suggest: now.session.suggest,
     next: nextMotion(),
     first: now.session.notebook.length === 0,
@@ -366,6 +373,7 @@ window.teach = {
   state: () => ({
     verdict: now.verdict,
     understandings: now.understandings,
+    saw: now.saw,
     points: showing.sent,
     frames: stage.frames,
     notebook: now.session.notebook.length,
