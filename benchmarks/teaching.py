@@ -2,8 +2,8 @@
 
 A robot goes through a short experiment first. Then a simulated hand draws its motions on the page,
 with the tempo and the tremor of a hand, as in the tests: from lifting the pen to what was seen,
-and to the verdict; understanding while the hand moves; samples of the pointer that reach the robot. At last
-the command is started again and again: how long until the page can be used, with everything
+and to the verdict; understanding while the hand moves; samples of the pointer that reach the robot.
+At last the command is started again and again: how long until the page can be used, with everything
 compiled before; what is drawn on it before the robot is awake is understood when it is. Chromium
 shares the processor with the robot here, and who knows what else; so beside what a person waits,
 the table tells for how long the robot has computed.
