@@ -57,7 +57,7 @@ class Visitor:
         self.session: Message = {}
         self.awake = False
         self.say({"type": "hello", "take": True})
-        self.until(lambda message: self.awake)
+        self.until(lambda message: self.awake and bool(self.session))
 
     def say(self, message: Message) -> None:
         """Send a message."""
