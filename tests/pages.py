@@ -3,6 +3,7 @@
 import json
 from contextlib import contextmanager
 
+import anyio
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
@@ -11,6 +12,8 @@ from motionese.interfaces.page.application import application
 from motionese.interfaces.page.hub import Hub
 
 HERE, LIVE = "http://127.0.0.1:8000", "ws://127.0.0.1:8000/live"
+PATIENCE_S = 90.0
+"""A message that has not come by then will not come: a test fails, and does not wait for ever."""
 
 
 class Page:
@@ -26,16 +29,28 @@ class Page:
     def hear(self, *kinds, where=lambda message: True):
         """The next message of these kinds; those before it are kept in `heard`."""
         while True:
-            message = self.socket.receive_json()
+            message = self._next(f"{' or '.join(kinds)} after {self.heard[-3:]}")
             self.heard.append(message)
             if message["type"] in kinds and where(message):
                 return message
+
+    def _next(self, awaited):
+        async def received():
+            with anyio.fail_after(PATIENCE_S):
+                return await self.socket._send_rx.receive()
+
+        try:
+            message = self.socket.portal.call(received)
+        except TimeoutError:
+            raise AssertionError(f"waited {PATIENCE_S:g} s in vain for {awaited}") from None
+        self.socket._raise_on_close(message)
+        return json.loads(message["text"])
 
     def closed(self):
         """How the server closes the connection: code and reason."""
         try:
             while True:
-                self.socket.receive_json()
+                self._next("the end of the connection")
         except WebSocketDisconnect as left:
             return left.code, left.reason
 

@@ -26,6 +26,7 @@ def test_every_sample_of_the_pointer_reaches_the_robot(person):
     taken = person.page.evaluate("window.taken")
     assert taken > 2
     assert person.state()["points"] == taken
+    assert person.state()["saw"] == 1, "what it saw is shown before whether it can do it"
     assert person.points_sent() == taken
 
 

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 import numpy as np
 from jaxtyping import Float, Int
 from numpy import ndarray
-from scipy.spatial import cKDTree
 
 from motionese.learning.motions.motions import Motions
 
@@ -117,6 +116,9 @@ def _partings(
     states: Float[ndarray, "K Z"], futures: Float[ndarray, "K A D"], places: Int[ndarray, "K 2"]
 ) -> Iterator[tuple[Int[ndarray, " 2"], int]]:
     """Yield the place of every state whose way parts from another's, and how many rows later."""
+    # SciPy takes long to import, and few who train ask for this.
+    from scipy.spatial import cKDTree  # noqa: PLC0415
+
     reach = NEAR * np.sqrt(futures.shape[-1])
     for place, future, near in zip(
         places, futures, cKDTree(states).query_ball_point(states, reach), strict=True

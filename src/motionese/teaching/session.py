@@ -38,6 +38,8 @@ PRACTICE = 5
 
 Tried = Callable[[Trial], None]
 """Called with every try of a lesson, as it comes."""
+Between = Callable[[], None]
+"""Called before every motion that is measured; what it raises ends the lesson."""
 
 
 class GrowthError(MotioneseError):
@@ -206,7 +208,9 @@ class Teaching:
         )
         return trial
 
-    def learn(self, report: Report, tried: Tried = lambda trial: None) -> Lesson:
+    def learn(
+        self, report: Report, tried: Tried = lambda trial: None, between: Between = lambda: None
+    ) -> Lesson:
         """Learn what was shown last by imitating it, as in the experiment's loop, a few times.
 
         Which network is kept is said in `lesson`; it is what the notebook ends with.
@@ -226,7 +230,7 @@ class Teaching:
 
         def overall(practices: int) -> float:
             self._return_with_notebook(outcomes[practices][1])
-            measured[practices] = {m: self._error_of(shown) for m, shown in others.items()}
+            measured[practices] = self._errors_of(others, between)
             return float(np.mean([errors[practices], *measured[practices].values()]))
 
         kept = kept_practice(errors, overall)
@@ -287,7 +291,7 @@ class Teaching:
             "network has of it fades as you teach on."
         )
 
-    def grow(self, report: Report) -> list[Change]:
+    def grow(self, report: Report, between: Between = lambda: None) -> list[Change]:
         """Open the next level, let it learn with the others, and compare the same imitations.
 
         Raises:
@@ -299,14 +303,14 @@ class Teaching:
                 "First show me a motion and press Learn this: a slow level grows on what I have "
                 "practised."
             )
-        before = [self._error_of(shown) for shown in known.values()]
+        before = self._errors_of(known, between)
         # The network's own key, as in the experiment: see `experiment.run`.
         key = key_for(self.scene.seed, "network")
         learner = self.learner.grown(self.scene.settings.network, key)
         self._become(practised(self.scene, learner, loop, report))
         self._look_again()
-        after = [self._error_of(shown) for shown in known.values()]
-        changes = [Change(*each) for each in zip(known, before, after, strict=True)]
+        after = self._errors_of(known, between)
+        changes = [Change(motion, before[motion], after[motion]) for motion in known]
         self._note(Learning(0, loop, began, 1, tuple(changes)))
         return changes
 
@@ -430,8 +434,12 @@ class Teaching:
                 taught[motion] = self.scene.caregiver().demonstrate(sequence, rng)
         return taught
 
-    def _error_of(self, shown: Demonstration) -> float:
-        """Return by how much an imitation of a demonstration misses now [cm]."""
-        watched = self.watch(shown)
-        done = self._performed(watched, self.recogniser.at_the_end(watched))
-        return path_error_cm(done.path, watched.path)
+    def _errors_of(self, shown: Mapping[str, Demonstration], between: Between) -> dict[str, float]:
+        """Return by how much imitations of demonstrations miss now [cm]."""
+        errors = {}
+        for motion, demonstration in shown.items():
+            between()
+            watched = self.watch(demonstration)
+            done = self._performed(watched, self.recogniser.at_the_end(watched))
+            errors[motion] = path_error_cm(done.path, watched.path)
+        return errors

@@ -3,6 +3,7 @@
 import time
 from pathlib import Path
 
+import pages
 import pytest
 from drawn import pen, strokes
 from gibberish import KINDS, messages
@@ -219,3 +220,10 @@ def test_whatever_is_said_is_passed_on_as_it_should_be_or_refused(said):
             assert passed["type"] in KINDS[1:17] or passed["type"] == "left"
             for at, x, y in passed.get("points", ()):
                 assert 0 <= at <= 1e12 and -1 <= x <= 2 and -1 <= y <= 2
+
+
+def test_a_page_that_hears_nothing_does_not_wait_for_ever(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "PATIENCE_S", 0.1)
+    vain = pytest.raises(AssertionError, match="in vain for verdict after")
+    with served(Nobody, tmp_path) as client, page(client) as own, vain:
+        own.hear("verdict")

@@ -55,7 +55,9 @@ def test_every_learned_motion_and_none_have_a_share_while_the_pen_moves(robot):
     assert {message["seen"][0]["motion"] for message in understandings[3:]} == {"UR ↓"}
     rows = [len(message["path"]) for message in understandings]
     assert rows == sorted(rows) and rows[-1] > 10
-    (verdict,) = of_kind(told, "verdict")
+    (saw,), (verdict,) = of_kind(told, "saw"), of_kind(told, "verdict")
+    assert saw["seen"] == verdict["seen"], "what was seen is told first"
+    assert told.index(saw) < told.index(verdict)
     assert verdict["motion"] == verdict["seen"][0]["motion"] == "UR ↓"
     assert not verdict["claim"]["made"] and verdict["advice"] == "imitate"
     assert not of_kind(told, "frames")

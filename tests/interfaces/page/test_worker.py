@@ -7,7 +7,9 @@ import signal
 import time
 import urllib.request
 import webbrowser
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from drawn import strokes
 from pages import page, served
@@ -19,6 +21,7 @@ from motionese.interfaces.page.robot import Robot
 from motionese.interfaces.page.server import teach
 from motionese.interfaces.page.supervisor import Supervisor
 from motionese.interfaces.page.worker import Origin
+from motionese.teaching.session import PRACTICE
 from motionese.teaching.session_folder import SessionFolder
 
 
@@ -76,6 +79,29 @@ def test_learning_is_stopped_without_a_trace(session, draw_with):
     robot.go_on()
     robot.take({"type": "stop"})
     assert robot.going is None, "a performance ends at once"
+
+
+def test_stop_is_heard_between_the_motions_that_are_measured_after_a_lesson(session, draw_with):
+    folder, told, measured = SessionFolder(session), [], []
+
+    def stop_asked():
+        tries = sum(m["type"] == "practice" for m in told)
+        measured.append(tries > PRACTICE)
+        return measured.count(True) > 1
+
+    robot = Robot(folder, folder.read(), told.append, stop_asked)
+    learner = robot.teaching.learner
+    for motion in ("UR ←", "UL ↓", "LL ↑"):
+        values = np.full((14, len(learner.channels)), 0.5)
+        learner = learner.experiencing(1, motion, values, np.zeros(learner.network.size))
+    robot.teaching.return_to(replace(robot.teaching.standing, learner=learner))
+    draw_with(robot, "UR ↓")
+    robot.take({"type": "learn"})
+    while robot.going is not None:
+        robot.go_on()
+    assert measured.count(True) == 2, "after the first of three motions"
+    assert "Stopped" in next(m["sentence"] for m in told if m["type"] == "told")
+    assert robot.teaching.learner is learner and told[-1]["busy"] == ""
 
 
 def test_growth_of_what_knows_nothing_is_answered_in_plain_words(session):

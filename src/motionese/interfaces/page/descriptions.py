@@ -173,6 +173,11 @@ def verdict_message(observed: Observation, view: View, seconds: float) -> Answer
     }
 
 
+def saw_message(seen: Mapping[str, float]) -> Answer:
+    """Return what was seen of a demonstration; the verdict follows when it has been thought of."""
+    return {"type": "saw", "seen": _likeliest(seen)}
+
+
 def understanding_message(
     understood: Understanding, seen: Mapping[str, float], view: View, milliseconds: int
 ) -> Answer:

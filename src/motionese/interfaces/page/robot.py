@@ -197,6 +197,8 @@ class Robot:
     def _show(
         self, path: Float[ndarray, "T 3"], drawn: Float[ndarray, "R 3"], source: Source, end: float
     ) -> None:
+        # This needs no network: it is there at once, and whether it can be done comes after it.
+        self._tell(descriptions.saw_message(self.teaching.seen(path)))
         observed = self.teaching.show(path, source, drawn)
         self._tell(descriptions.verdict_message(observed, self._view, time.monotonic() - end))
         self._save()
@@ -257,7 +259,9 @@ class Robot:
             self._tell({"type": "practice", "attempt": len(tries), "of": PRACTICE, **whole})
             tries.append(trial)
 
-        lesson = self._changed(lambda report: self.teaching.learn(report, tried), "learning")
+        lesson = self._changed(
+            lambda report: self.teaching.learn(report, tried, self._between), "learning"
+        )
         self._tell(descriptions.learned_message(lesson))
 
     def _repeat(self, message: dict[str, Any]) -> Iterator[float]:
@@ -303,7 +307,7 @@ class Robot:
             return
         self.tell_session("growing")
         yield 0.0
-        changes = self._changed(self.teaching.grow, "growing")
+        changes = self._changed(lambda report: self.teaching.grow(report, self._between), "growing")
         self._tell(descriptions.grown_message(changes, self.teaching.learner.network))
 
     def _changed(self, change: Callable[[Report], T], what: str) -> T:
@@ -311,8 +315,7 @@ class Robot:
 
         def report(done: int, of: int, now: Progress) -> None:
             self._tell(descriptions.progress_message(what, done, of, now))
-            if self._stop_asked():
-                raise StoppedError
+            self._between()
 
         before = self.teaching.standing
         try:
@@ -323,6 +326,11 @@ class Robot:
         self._network_changed()
         self._save()
         return result
+
+    def _between(self) -> None:
+        """Hear, between one thing and the next, whether the person wants it to end."""
+        if self._stop_asked():
+            raise StoppedError
 
     def _forget(self, message: dict[str, Any]) -> Iterator[float]:
         said = self.teaching.forget(message["entry"], self._folder.learner)

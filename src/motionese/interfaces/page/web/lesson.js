@@ -6,7 +6,7 @@ import { part, prefersStillness, say } from "./dom.js";
 const SPEED = 3;
 
 export class Lesson {
-  /** `ended(learned)` is called when the lesson is over and all of it was seen, or skipped. */
+  /** `ended(learned, tries)` is called when the lesson is over and was seen, or skipped. */
   constructor(playback, ended) {
     Object.assign(this, { playback, ended, tries: [], waiting: [], result: null, shown: 0 });
     part("skip").addEventListener("click", () => this.skip());
@@ -75,6 +75,6 @@ export class Lesson {
     const kept = tries[result.kept];
     if (kept) this.playback.load(kept, result.kept ? tries[0] : null);
     this.drop();
-    this.ended(result);
+    this.ended(result, tries);
   }
 }

@@ -8,6 +8,7 @@ import { onScheme, part, prefersStillness, say } from "./dom.js";
 import { showEmergence } from "./emergence.js";
 import { Ghost } from "./ghost.js";
 import { Lesson } from "./lesson.js";
+import { LessonFilm } from "./lesson_film.js";
 import { Live } from "./live.js";
 import { StateMap } from "./map.js";
 import { showGrown, showNotebook } from "./notebook.js";
@@ -24,6 +25,7 @@ import {
   showClaim,
   showMotion,
   showResult,
+  showSaw,
   showUnderstanding,
   showVerdict,
 } from "./verdict.js";
@@ -48,6 +50,7 @@ const now = {
     can_grow: false,
   },
   robots: 0,
+  robot: "",
   step: "",
   verdict: null,
   performed: null,
@@ -58,6 +61,7 @@ const now = {
   touched: false,
   pending: null,
   understandings: 0,
+  saw: 0,
 };
 
 const send = (message) => live.send(message);
@@ -67,7 +71,9 @@ const stage = new Stage(() => view.refresh());
 /** Whether the robot's arm follows the pen. */
 const follows = () => part("follow").checked;
 const playback = new Playback(stage, view, () => refresh());
-const lesson = new Lesson(playback, (learned) => {
+const lessonFilm = new LessonFilm(stage, tell);
+const lesson = new Lesson(playback, (learned, tries) => {
+  lessonFilm.learned(tries, learned, now.robot);
   Object.assign(now, { learned, step: "learned" });
   showMotion(learned.motion);
   showClaim(learned.claim);
@@ -99,6 +105,7 @@ const heard = {
     now.scene = message;
     takeTask(message.task, message.view.aspect);
     stage.take(message);
+    lessonFilm.take(message);
     view.take((width, height) => stage.seen(message.view.camera, width, height));
     listMotions(message.task.motions);
   },
@@ -116,6 +123,7 @@ const heard = {
   },
   robots(message) {
     now.robots = message.robots.length;
+    now.robot = message.robots.find(({ id }) => id === message.taught).name;
     showRobots(message, (robot) => send({ type: "teach", robot }));
     showComparison(
       message,
@@ -140,6 +148,11 @@ const heard = {
       judge();
       refresh();
     });
+  },
+  saw(message) {
+    if (ghost.plays) return;
+    now.saw += 1;
+    showSaw(message);
   },
   verdict(message) {
     now.verdict = now.pending = message;
@@ -252,6 +265,7 @@ function beginAnew() {
   say(part("attempt"), "What the robot does");
   stage.clear();
   map.clear();
+  lessonFilm.drop();
   part("grown").hidden = true;
 }
 
@@ -388,7 +402,7 @@ function refresh() {
     webcam: showing.filmed,
     keyed: showing.keyed,
     ghost: ghost.plays && now.touched,
-    busy: now.session.busy,
+    busy: now.session.busy || (now.awaited ? "recognising" : ""),
     suggest: now.session.suggest,
     next: nextMotion(),
     first: now.session.notebook.length === 0,
@@ -408,6 +422,7 @@ window.teach = {
   state: () => ({
     verdict: now.verdict,
     understandings: now.understandings,
+    saw: now.saw,
     points: showing.sent,
     frames: stage.frames,
     notebook: now.session.notebook.length,
@@ -428,6 +443,7 @@ window.teach = {
     ghostly: Boolean(playback.first),
     point: map.cell,
     hovered: view.marks.hovered ?? null,
+    film: lessonFilm.made,
   }),
   /** Where a place [x, y] of the view lies in the window. */
   pixel(place) {

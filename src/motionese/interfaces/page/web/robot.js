@@ -33,7 +33,7 @@ export function isSoftware() {
 export class Robot {
   /** Draw on a canvas; throws where the browser has no WebGL. */
   constructor(canvas, software) {
-    this.canvas = canvas;
+    Object.assign(this, { canvas, software });
     this.ratio = software ? 1 : Math.min(window.devicePixelRatio || 1, 2);
     this.renderer = new WebGLRenderer({ canvas, antialias: !software });
     this.scene = new Scene();
@@ -96,9 +96,13 @@ export class Robot {
     });
   }
 
-  /** Draw one picture. */
+  /** Draw one picture, as large as the canvas is on the page. */
   draw() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.drawn(this.canvas.clientWidth, this.canvas.clientHeight);
+  }
+
+  /** Draw one picture so large [px], also on a canvas that is on no page. */
+  drawn(width, height) {
     if (!width || !this.bodies.length) return;
     const { turn, rise, far } = this.orbit;
     const flat = far * Math.cos(rise);
@@ -129,6 +133,12 @@ export class Robot {
     picture.getContext("2d").drawImage(this.canvas, 0, 0);
     this.draw();
     return picture;
+  }
+
+  /** Give back what was taken to draw. */
+  release() {
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   #render(camera, width, height) {

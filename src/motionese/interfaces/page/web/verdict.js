@@ -47,6 +47,14 @@ export function showUnderstanding({ seen }) {
   showClaim(null);
 }
 
+/** Show what was seen; whether it can be done is not known yet. */
+export function showSaw({ seen }) {
+  part("verdict").classList.remove("tentative");
+  say(part("verdict-label"), "The robot saw");
+  showSeen(seen);
+  showAnswer("Thinking …", "");
+}
+
 /** Show a verdict, and speak it. */
 export function showVerdict({ motion, seen, sentence, claim }) {
   part("verdict").classList.remove("tentative");
