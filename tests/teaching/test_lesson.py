@@ -31,17 +31,17 @@ def test_the_others_are_looked_at_only_where_it_may_be_kept():
 @pytest.mark.parametrize(
     ("tries", "kept", "said"),
     [
-        ((4.8, 2.0, 1.1), 2, "4.8 → 1.1 cm, and it pressed the right button: 6.1 mm"),
+        ((4.8, 2.0, 1.1), 2, "4.8 → 1.1 cm, and it pressed LR: 6.1 mm"),
         ((4.8, 2.0, 1.1), 0, "I kept what I knew before: practising this made others worse."),
         ((4.8, 5.0, 6.1), 0, "I kept what I knew before: practice did not make it better."),
     ],
 )
 def test_a_lesson_is_told_in_a_sentence(tries, kept, said):
     changes = (Change("UR ↓", tries[0], tries[kept]),)
-    result = Result(tries[kept], (Push("right_button", "the right button", 6.1, 5.0),))
+    result = Result(tries[kept], (Push("right_button", "LR", 6.1, 5.0),))
     lesson = Lesson(1, tries, kept, changes, result, Claim(1.0, 1.0, (), "UR ↓", 0.1, result))
     assert lesson.sentence.startswith(said)
-    assert "it pressed the right button" in lesson.sentence
+    assert "it pressed LR" in lesson.sentence
 
 
 def test_growth_tells_what_got_worse_and_what_to_do():

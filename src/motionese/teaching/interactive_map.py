@@ -9,6 +9,7 @@ from numpy import ndarray
 from motionese.imitation import generator_for, has_map, slow_map_of, with_slow_state
 from motionese.learning import generate
 from motionese.teaching.drawing import most_rows
+from motionese.teaching.notebook import Notebook
 from motionese.teaching.session import Teaching
 from motionese.teaching.view import hand_seen
 
@@ -57,6 +58,10 @@ class InteractiveMap:
     def possible(teaching: Teaching) -> bool:
         """Whether the network has a slow level of two units."""
         return has_map(teaching.scene, teaching.learner.network)
+
+    def named_as(self, notebook: Notebook) -> None:
+        """Call the learned motions as they are called now."""
+        self.points = [(notebook.called_now(motion), slow) for motion, slow in self.points]
 
     def motion(self, primitive: str, slow: tuple[float, float]) -> Float[ndarray, "T 3"] | None:
         """Return the hand's path [m, world] from a point, for two strokes; None if unknown."""

@@ -16,7 +16,7 @@ class Push:
 
     Attributes:
         effect: What it has to bring about, as the body names it.
-        place: Where, in words.
+        place: Where.
         depth_mm: How deep it was [mm].
         needed_mm: How deep it must be [mm].
     """
@@ -81,7 +81,7 @@ def result_of(
     pushes = [
         Push(
             primitive.effect,
-            task.places[primitive.end].title,
+            primitive.end,
             float(effects[primitive.effect][window].max()),
             task.needed_mm,
         )

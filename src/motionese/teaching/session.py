@@ -253,7 +253,7 @@ class Teaching:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
             earlier = since[0].before
-            learner = kept(earlier)
+            learner = kept(earlier).renamed(notebook.renamed)
             self.return_to(replace(self.standing, learner=learner, number=earlier, results={}))
             return f"{entry.motion} is forgotten: the network is again what it was before."
         loops = {each.loop - i for each in since if each.entry == number for i in range(PRACTICE)}
@@ -337,6 +337,7 @@ class Teaching:
         """Return a name that no motion has had."""
         named = [entry.motion for entry in self.notebook.entries]
         named += [experience.motion for experience in self.learner.experiences]
+        named += [name for pair in self.notebook.renamed for name in pair]
         numbers = [int(n[1]) for name in named if (n := re.fullmatch(rf"{OWN} (\d+)", name))]
         return f"{OWN} {max(numbers, default=0) + 1}"
 

@@ -15,6 +15,7 @@ from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
+from motionese.teaching.chapters import TITLES, Chapter, chapter_of
 from motionese.teaching.claim import Claim
 from motionese.teaching.frames import Film
 from motionese.teaching.interactive_map import InteractiveMap
@@ -24,6 +25,7 @@ from motionese.teaching.online_recogniser import Understanding
 from motionese.teaching.result import Result
 from motionese.teaching.session import Observation, Teaching
 from motionese.teaching.trial import Trial
+from motionese.teaching.verdict import sequence_called
 from motionese.teaching.view import ASPECT, View
 
 DIGITS = 4
@@ -80,7 +82,7 @@ def _task(task: Task, view: View) -> Answer:
         "effects": [
             {
                 "name": effect,
-                "title": effect.replace("_", " "),
+                "title": ", ".join(p.end for p in task.primitives if p.effect == effect),
                 "places": [p.end for p in task.primitives if p.effect == effect],
             }
             for effect in task.effects
@@ -101,6 +103,7 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
             "source": entry.source,
             "errors": [round(error, 2) for error in entry.errors_cm],
             "learned": entry.number in learned,
+            "own": sequence_called(entry.motion, teaching.scene.task) is None,
         }
         for entry in notebook.entries
     ]
@@ -123,8 +126,16 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
         "shown": observed.entry.number if observed else None,
         "watched": listed(view.of_points(observed.watched.path)) if observed else [],
         "suggest": suggestion,
+        "chapter": _chapter(chapter_of(teaching)),
         "busy": busy,
     }
+
+
+def _chapter(chapter: Chapter | None) -> Answer | None:
+    if chapter is None:
+        return None
+    told = {"name": chapter.name, "number": chapter.number, "of": len(TITLES)}
+    return {**told, "title": TITLES[chapter.name], "act": chapter.act, "motion": chapter.motion}
 
 
 def _last_error(notebook: Notebook) -> float:
@@ -297,6 +308,7 @@ def learned_message(lesson: Lesson) -> Answer:
         "kept": lesson.kept,
         "changes": _changes(lesson.changes),
         "sentence": lesson.sentence,
+        "advice": lesson.result.advice,
         "claim": _claim(lesson.claim),
     }
 

@@ -67,6 +67,14 @@ class OfEntry(Said):
     entry: Annotated[int, Field(ge=0, le=10**6)]
 
 
+class Rename(Said):
+    """A motion of the person's own is to be called otherwise."""
+
+    type: Literal["rename"]
+    motion: Annotated[str, Field(max_length=64)]
+    name: Annotated[str, Field(max_length=64)]
+
+
 class Hover(Said):
     """The motion of a point of the map is wanted."""
 
@@ -88,7 +96,7 @@ class Plain(Said):
     type: Literal["imitate", "learn", "grow", "map", "stop"]
 
 
-Message = Hello | Pen | Demonstrate | OfEntry | Hover | Begin | Plain
+Message = Hello | Pen | Demonstrate | OfEntry | Rename | Hover | Begin | Plain
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 
 

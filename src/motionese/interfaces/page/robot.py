@@ -17,9 +17,11 @@ from motionese.interfaces.page import descriptions
 from motionese.interfaces.page.messages import Answer, Tell
 from motionese.interfaces.page.pen import Pen
 from motionese.learning import Progress
+from motionese.teaching.chapters import MAP, end_chapters
 from motionese.teaching.drawing import DrawingError, most_rows
 from motionese.teaching.frames import Film, film
 from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.names import rename
 from motionese.teaching.notebook import Entry, Source
 from motionese.teaching.practice import Report
 from motionese.teaching.session import PRACTICE, Teaching
@@ -113,6 +115,7 @@ class Robot:
                 "learn": self._learn,
                 "forget": self._forget,
                 "replay": self._replay,
+                "rename": self._rename,
                 "grow": self._grow,
                 "map": self._draw_map,
                 "begin": self._begin,
@@ -165,6 +168,7 @@ class Robot:
         self._save()
 
     def _save(self) -> None:
+        end_chapters(self.teaching)
         self._folder.save(self.teaching)
         self.tell_session()
 
@@ -237,6 +241,16 @@ class Robot:
         self.tell_session()
         yield 0.0
 
+    def _rename(self, message: dict[str, Any]) -> Iterator[float]:
+        rename(self.teaching, message["motion"], message["name"])
+        if self._map is not None:
+            self._map.named_as(self.teaching.notebook)
+            self._tell(descriptions.map_message(self._map))
+        self._save()
+        if self.teaching.observed is not None:
+            self._tell(descriptions.verdict_message(self.teaching.observed, self._view, 0.0))
+        yield 0.0
+
     def _film(self, trial: Trial) -> Film:
         rate_hz = self.teaching.scene.body.rate_hz
         return film(self._geometry, trial.levels, trial.performance, rate_hz)
@@ -292,7 +306,10 @@ class Robot:
     def _begin(self, message: dict[str, Any]) -> Iterator[float]:
         self.tell_session("beginning anew")
         yield 0.0
+        ended = self.teaching.notebook.ended
         self._become(self._folder.begin_anew(message["with"], self.teaching))
+        end_chapters(self.teaching, *ended)
+        self._save()
         self._tell({"type": "begun"})
         self._hint("A new robot. The session before is kept in the session's folder.")
 
@@ -302,3 +319,5 @@ class Robot:
         path = self._map.motion(message["primitive"], message["slow"])
         if path is not None:
             self._tell({"type": "hovered", "path": descriptions.listed(self._view.of_points(path))})
+            if end_chapters(self.teaching, MAP):
+                self._save()

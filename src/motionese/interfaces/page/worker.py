@@ -70,6 +70,10 @@ def _awake(
     robot = Robot(folder, teaching, connection.send, stop_asked)
     robot.introduce()
     teaching.warm_up()
+    if teaching.notebook.entries:
+        # What is imitated next is what is shown, also after the process was killed.
+        teaching.look_back(teaching.notebook.entries[-1].number)
+        robot.tell_session()
     sentence = "The session goes on where it was." if goes_on else ""
     connection.send(worker_message("ready", sentence))
     return robot
