@@ -49,9 +49,14 @@ class Result:
     pushes: tuple[Push, ...] = ()
 
     @property
+    def missed(self) -> int:
+        """How many pushes failed that were due."""
+        return sum(not push.made for push in self.pushes)
+
+    @property
     def good(self) -> bool:
         """Whether it was near enough and did all that is due."""
-        return self.error_cm <= WELL_CM and all(push.made for push in self.pushes)
+        return self.error_cm <= WELL_CM and not self.missed
 
     @property
     def advice(self) -> Literal["learn", "show"]:

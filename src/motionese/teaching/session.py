@@ -199,6 +199,7 @@ class Teaching:
             tried(trial)
             outcomes.append((trial, self.standing))
         errors = tuple(trial.error_cm for trial, _ in outcomes)
+        missed = tuple(trial.result.missed for trial, _ in outcomes)
         measured: dict[int, dict[str, float]] = {}
 
         def overall(practices: int) -> float:
@@ -206,7 +207,7 @@ class Teaching:
             measured[practices] = {m: self._error_of(shown) for m, shown in others.items()}
             return float(np.mean([errors[practices], *measured[practices].values()]))
 
-        kept = kept_practice(errors, overall)
+        kept = kept_practice(errors, overall, missed)
         self._return_with_notebook(outcomes[kept][1])
         if kept < PRACTICE:
             trial = self.imitate()
@@ -214,7 +215,7 @@ class Teaching:
         changes = (taught, *(Change(m, measured[0][m], measured[kept][m]) for m in others))
         self._note(Learning(entry.number, loop, began, kept, changes))
         claim = self._judged_again().claim
-        return Lesson(entry.number, errors, kept, changes, trial.result, claim)
+        return Lesson(entry.number, errors, kept, changes, trial.result, claim, missed)
 
     def _practise(self, trial: Trial, loop: int, report: Report, practice: int) -> None:
         """Train on what the own body did in a try, and look at what was shown again."""

@@ -117,19 +117,6 @@ def test_a_full_disk_is_told_and_the_robot_goes_on(session, draw_with, monkeypat
     assert told[-1] == {"type": "told", "kind": "error", "sentence": "no space left"}
 
 
-@pytest.fixture
-def draw_with():
-    """Draw a motion for a robot in this process."""
-
-    def drawn(robot, name):
-        for message in strokes(name):
-            points = [tuple(point) for point in message["points"]]
-            more = {"source": "drawn", "follow": False, "received": time.monotonic()}
-            robot.take({**message, "points": points, **more})
-
-    return drawn
-
-
 def test_a_robot_that_cannot_begin_says_why_and_is_not_tried_again(tmp_path):
     (tmp_path / "mine.txt").write_text("not a session")
     with served(lambda told: Supervisor(Origin("", tmp_path), told), tmp_path) as client:
