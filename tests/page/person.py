@@ -59,6 +59,10 @@ class Person:
     def guide(self) -> str:
         return self.page.inner_text("#guide")
 
+    def place(self, name: str) -> list[float]:
+        """Where a place of the task lies in the view."""
+        return list(self.page.evaluate(f"window.teach.place('{name}')"))
+
     def at(self, place: str) -> tuple[float, float]:
         """Where a place of the task lies in the window [px]."""
         x, y = self.page.evaluate(f"window.teach.pixel(window.teach.place('{place}'))")

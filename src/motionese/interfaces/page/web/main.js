@@ -387,6 +387,7 @@ window.teach = {
     phase: now.session.phase,
     busy: now.session.busy,
     step: now.step,
+    hand: view.marks.hand?.slice(-2),
     ready: isReady(),
     watching: Boolean(canWatch()),
     drawing: showing.drawing,
