@@ -50,6 +50,7 @@ def test_a_motion_of_ones_own_is_called_by_its_name_from_then_on(parent):
     parent.page.reload()
     parent.until(lambda state: state["ready"] and state["notebook"])
     assert "big wave" in parent.page.get_by_test_id("notebook").inner_text()
+    assert "big wave" in parent.reads("verdict-arrows"), "that is what would be imitated"
     parent.draw_through(["UR", "LL"])
     verdict = parent.until(lambda state: state["step"] == "judged")["verdict"]
     assert verdict["motion"] == "big wave", "it is recognised"

@@ -57,12 +57,12 @@ def _allowed(text: str, task: Task, others: Iterable[str]) -> str:
     """Return a name as it is written; `NamingError` where it may not be given."""
     name = " ".join(text.split())
     first = name.partition(" ")[0].upper()
+    if first in task.places or sequence_called(name.upper(), task):
+        raise NamingError(f"The task's own motions are written like “{name}”: choose another name.")
     if not name or not all(sign.isalnum() or sign == " " for sign in name):
         raise NamingError("A name is made of letters, digits and spaces.")
     if len(name) > LONGEST:
         raise NamingError(f"A name has at most {LONGEST} letters.")
-    if first in task.places or sequence_called(name.upper(), task):
-        raise NamingError(f"The task's own motions are written like “{name}”: choose another name.")
     reserved = (SOMETHING_ELSE, NONE, BABBLING)
     if name.casefold() in {each.casefold() for each in (*others, *reserved)}:
         raise NamingError(f"“{name}” is the name of something else: choose another.")

@@ -6,9 +6,6 @@ from pathlib import Path
 import pytest
 
 import motionese
-from motionese.imitation import Scene, newborn
-from motionese.interfaces.page.robot import Robot
-from motionese.teaching.session_folder import SessionFolder
 
 OTHERS = re.compile(
     r"\b(upper|lower|top|bottom)[ _-](right|left)\b|\b(right|left|blue|green)[ _](button|light)\b",
@@ -31,32 +28,14 @@ def sentences(told, where=""):
         yield where, told
 
 
-@pytest.fixture
-def robot(tmp_path, small_settings):
-    """A robot of three levels that has learned nothing, and all that it tells."""
-    folder, told = SessionFolder(tmp_path / "session"), []
-    scene = Scene(small_settings, 0)
-    teaching = folder.begin("fresh", scene, newborn(scene, 3))
-    robot = Robot(folder, teaching, told.append, stop_asked=lambda: False)
-    robot.introduce()
-    return robot, told
-
-
-def does(robot, kind, **more):
-    robot.take({"type": kind, **more})
-    while robot.going is not None:
-        robot.go_on()
-
-
 @pytest.mark.slow
-def test_nothing_that_is_told_has_another_name_for_a_place(robot, draw_with):
-    robot, told = robot
+def test_nothing_that_is_told_has_another_name_for_a_place(robot, told, does, draw_with):
     draw_with(robot, "LR ↑←")
     draw_with(robot, "UL ↓")
     for kind in ("imitate", "learn", "map"):
-        does(robot, kind)
+        does(kind)
     for kind in ("replay", "forget"):
-        does(robot, kind, entry=2)
+        does(kind, entry=2)
     texts = {(where, text) for each in told for where, text in sentences(each)}
     explained = {(w, t) for w, t in texts if re.fullmatch(r"\.task\.places\.\w\w\.title", w)}
     assert len(explained) == 4, "what a name stands for is told where it is explained"

@@ -55,6 +55,8 @@ def test_a_killed_robot_comes_back_with_all_but_the_motion_under_way(session):
         assert client.hub.worker_pid != killed
         again = [m for m in own.heard if m["type"] == "session"][-1]
         assert again["notebook"] == before["notebook"] and again["id"] == before["id"]
+        assert (again["shown"], again["watched"]) == (before["shown"], before["watched"])
+        assert before["chapter"]["name"] == "try" and again["chapter"] == before["chapter"]
         for message in strokes("UR ←"):
             own.say(message)
         assert own.hear("verdict")["shown"] == "UR ←"

@@ -321,8 +321,9 @@ const motionOf = (entry) => now.session.notebook.find((one) => one.entry === ent
 function remember() {
   const isIdle =
     !showing.drawing && !ghost.plays && !now.awaited && !now.pending && !now.session.busy;
-  if (isIdle && !now.step && now.session.shown !== null && !view.marks.drawn?.length)
-    view.mark({ drawn: now.session.watched });
+  if (!isIdle || now.step || now.session.shown === null || view.marks.drawn?.length) return;
+  view.mark({ drawn: now.session.watched });
+  showMotion(motionOf(now.session.shown));
 }
 
 /** Bring the robot into the window where that is too low for it, as on a phone. */
