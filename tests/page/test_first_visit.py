@@ -8,15 +8,17 @@ from page.serving import served
 
 SHOW = re.compile(r"press on (\w+) and draw (.+?)\.$")
 TO = re.compile(r"to ([A-Z]+)\b")
-BUTTONS = {"Imitate": "imitate", "Learn this": "learn", "Grow": "grow", "Map": "map-draw"}
-MOST_LESSONS = 12
+BUTTONS = {"Imitate": "imitate", "Learn this": "learn"}
+ENDS = {"imitate": "performed", "learn": "learned"}
+MOST_LESSONS = 20
+"""Five turns of four, between the two pushes."""
 
 
 def asked(sentence):
     """What the line asks for: a button of that name, or the places to be drawn through."""
     if show := SHOW.search(sentence):
         return "draw", [show[1], *TO.findall(show[2])]
-    (button,) = re.findall(r"Press (Imitate|Learn this|Grow|Map)\b", sentence)
+    (button,) = re.findall(r"Press (Imitate|Learn this)\b", sentence)
     return BUTTONS[button], None
 
 
@@ -40,8 +42,8 @@ def obeys(person):
     marked = person.page.locator("button.next:not([aria-disabled='true'])")
     assert marked.get_attribute("id") == what, "the button that is marked is the one that is said"
     person.presses(what)
-    person.until(lambda state: state["busy"] or state["step"] not in ("judged", ""))
-    person.until(lambda state: not state["busy"] and not state["plays"])
+    person.until(lambda state: state["busy"])
+    person.until(lambda state: state["step"] == ENDS[what] and not state["busy"])
     return what
 
 
@@ -59,10 +61,11 @@ def test_who_does_what_the_line_says_sees_a_push_fail_and_then_the_light(open_pa
                 chapters.append(person.reads("chapter"))
                 print(f"{time.monotonic() - began:.0f} s: {chapters[-1]}")
         assert done[:2] == ["draw", "imitate"]
-        assert [chapter[:6] for chapter in chapters] == ["1 of 5", "2 of 5", "3 of 5", "4 of 5"]
-        result = person.state()["learned"]["sentence"]
-        print(f"{done.count('learn')} lessons, {result}")
-        assert "pressed" in result
+        numbers = [chapter[:6] for chapter in chapters]
+        # A newborn may press by chance: then there is nothing to practise.
+        assert numbers[:2] == ["1 of 5", "2 of 5"] and numbers[-1] == "4 of 5"
+        print(f"{done.count('learn')} lessons: {person.guide()}")
+        assert "a pair" in person.guide()
         person.page.reload()
         person.until(lambda state: state["ready"] and state["notebook"])
         assert person.reads("chapter") == chapters[-1], "kept with the session"
