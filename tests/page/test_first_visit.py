@@ -50,8 +50,9 @@ def obeys(person):
 @pytest.mark.slow
 def test_who_does_what_the_line_says_sees_a_push_fail_and_then_the_light(open_page, tmp_path):
     with served(tmp_path, "babbling") as server:
+        server.awake()
         began = time.monotonic()
-        person = open_page(server.awake()).arrives()
+        person = open_page(server).arrives()
         assert rests_at(person) == pytest.approx(person.place("UL"), abs=0.01)
         chapters, done = [person.reads("chapter")], []
         while not person.reads("chapter").startswith("4"):
