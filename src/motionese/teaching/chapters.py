@@ -100,7 +100,7 @@ def _pushes(teaching: Teaching) -> list[str]:
     """Return the pushes of one stroke, the one that comes easiest first.
 
     That is the one straight before the body: of twelve newborns (seeds 0 to 11) all had lit LL
-    within four lessons, seven LR.
+    within four lessons, and not all LR.
     """
     task = teaching.scene.task
     pushes = [s for s in task.sequences(1) if _is_push(teaching, s)]

@@ -72,7 +72,9 @@ export const WORDS = {
     ],
   },
   places: {
-    title: "Places",
+    get title() {
+      return Object.keys(task.places).join(", ");
+    },
     get sentence() {
       const all = Object.entries(task.places).map(([name, { title }]) => `${name} is ${title}`);
       return `Motions are named by where they start, and an arrow a stroke: ${all.join("; ")}.`;
