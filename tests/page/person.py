@@ -3,7 +3,7 @@
 import json
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import cv2
@@ -59,6 +59,10 @@ class Person:
     def guide(self) -> str:
         return self.page.inner_text("#guide")
 
+    def place(self, name: str) -> list[float]:
+        """Where a place of the task lies in the view."""
+        return list(self.page.evaluate(f"window.teach.place('{name}')"))
+
     def at(self, place: str) -> tuple[float, float]:
         """Where a place of the task lies in the window [px]."""
         x, y = self.page.evaluate(f"window.teach.pixel(window.teach.place('{place}'))")
@@ -70,9 +74,17 @@ class Person:
         self.page.mouse.up()
         return moves, time.monotonic() - began
 
+    def draw_through(self, places: list[str]) -> None:
+        """Draw from place to place."""
+        self.page.evaluate("scrollTo(0, 0)")
+        self._draws(places, STROKE_S)
+        self.page.mouse.up()
+
     def draws(self, motion: str, stroke_s: float = STROKE_S) -> int:
         """Draw a motion with a minimum-jerk hand that trembles a little, and keep the pen down."""
-        passed = PUSHING_BUTTONS.sequence(motion).places
+        return self._draws(PUSHING_BUTTONS.sequence(motion).places, stroke_s)
+
+    def _draws(self, passed: Sequence[str], stroke_s: float) -> int:
         places = [np.array(self.at(place)) for place in passed]
         self.page.mouse.move(*places[0])
         self.page.mouse.down()

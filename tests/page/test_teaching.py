@@ -153,10 +153,15 @@ def test_targets_are_large_enough_for_a_finger(open_page, taught):
 
 
 SMALL = """
+const of = (one) => {
+  if (!one.matches(".term")) return one.getBoundingClientRect();
+  const { width, height } = getComputedStyle(one, "::after");
+  return { width: parseFloat(width), height: parseFloat(height) };
+};
 [...document.querySelectorAll("button, a[href], select, input, .follow")]
   .filter((one) => one.offsetParent && !one.matches(".skip, .follow input"))
-  .map((one) => [one.id || one.dataset.testid, one.getBoundingClientRect()])
+  .map((one) => [one.id || one.dataset.testid || one.dataset.word, of(one)])
   .filter(([, box]) => box.width < 43.5 || box.height < 43.5)
   .map(([name]) => name)
 """
-"""What can be operated and is smaller than a finger."""
+"""What can be operated and is smaller than a finger; a word in a text takes the room around it."""

@@ -90,7 +90,7 @@ def test_a_sequence_is_found_by_its_places_and_put_in_words():
     assert PUSHING_BUTTONS.through(pair.places) == pair
     assert PUSHING_BUTTONS.through(["UR", "LL"]) is None
     assert PUSHING_BUTTONS.through(["UR"]) is None
-    assert PUSHING_BUTTONS.in_words(pair) == "from the upper right down, then up"
+    assert PUSHING_BUTTONS.in_words(pair) == "from UR down, then up"
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def teaching(scene, fresh):
 def kept(monkeypatch):
     """Every lesson is kept, however little its short training brings."""
 
-    def last(errors_cm, overall_cm):
+    def last(errors_cm, overall_cm, missed):
         overall_cm(0), overall_cm(PRACTICE)
         return PRACTICE
 

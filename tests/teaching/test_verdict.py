@@ -10,8 +10,8 @@ from motionese.teaching.recogniser import start_of
 from motionese.teaching.result import WELL_CM, Push, Result
 from motionese.teaching.verdict import Verdict, seen_in_words
 
-PRESSED = Push("right_button", "the right button", 6.1, 5.0)
-MISSED = Push("right_button", "the right button", 4.2, 5.0)
+PRESSED = Push("right_button", "LR", 6.1, 5.0)
+MISSED = Push("right_button", "LR", 4.2, 5.0)
 OWN = "your motion 1"
 
 
@@ -34,9 +34,9 @@ def advice(tried):
         ({"foretold": FORETOLD_CM + 0.1}, "it went on 5.1 cm from what I expected"),
         ({"expected": WELL_CM + 0.1}, "I expect to miss by 2.1 cm"),
         ({"expected": np.inf}, "I have never moved"),
-        ({"missed": ("the left button",)}, "I expect to miss the left button"),
+        ({"missed": ("LL",)}, "I expect to miss LL"),
         ({"tried": Result(1.0, (PRESSED,))}, "I can do this."),
-        ({"tried": Result(1.0, (MISSED,))}, "my last try pressed the right button 4.2 mm; 5"),
+        ({"tried": Result(1.0, (MISSED,))}, "my last try pressed LR 4.2 mm; 5"),
         ({"tried": Result(4.0)}, "my last try missed by 4.0 cm"),
     ],
 )
@@ -48,14 +48,14 @@ def test_a_claim_is_made_only_where_nothing_speaks_against_it(given, said):
 def test_a_result_says_how_near_it_came_and_what_it_pressed():
     pressed, missed = Result(1.0, (PRESSED,)), Result(1.0, (PRESSED, MISSED))
     assert pressed.good and not missed.good and not Result(WELL_CM + 0.1).good
-    assert "pressed the right button: 6.1 mm of the 5 it needs" in pressed.sentence
+    assert "pressed LR: 6.1 mm of the 5 it needs" in pressed.sentence
     assert "does this well" in pressed.sentence and "does this well" not in missed.sentence
     assert "4.2 mm; 5 are needed" in missed.sentence
     assert Result(3.0).sentence == "It missed by 3.0 cm."
 
 
 def test_what_was_seen_is_told_as_surely_as_it_is():
-    down = "from the upper right down"
+    down = "from UR down"
     assert words({"UR ↓": 0.9, SOMETHING_ELSE: 0.1}, "UR ↓") == f"I saw: {down}."
     assert words({"UR ↓": 0.6, SOMETHING_ELSE: 0.4}, "UR ↓") == f"I think I saw: {down}."
     assert words({SOMETHING_ELSE: 0.9}, OWN).endswith(f"I call it {OWN}.")

@@ -1,6 +1,6 @@
 """What a robot has become: its network and the experiences it learns from; how it is kept."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
@@ -115,6 +115,23 @@ class Learner:
             for level in self.network.names[1:-1]
             if (known := self.repertoire_of(level))
         }
+
+    def renamed(self, names: Iterable[tuple[str, str]]) -> "Learner":
+        """Return the learner with motions called otherwise: names before and after, in order."""
+        known = [e.motion for e in self.experiences] + [e.motion for e in self.elements]
+        called = dict(zip(known, known, strict=True))
+        for before, name in names:
+            called = {first: name if now == before else now for first, now in called.items()}
+        experiences = tuple(
+            replace(
+                e,
+                motion=called[e.motion],
+                begins_with={level: called.get(m, m) for level, m in e.begins_with.items()},
+            )
+            for e in self.experiences
+        )
+        elements = tuple(replace(e, motion=called[e.motion]) for e in self.elements)
+        return replace(self, experiences=experiences, elements=elements)
 
     def repertoire_of(self, level: str) -> tuple[Element, ...]:
         """Return the elements of a level's repertoire."""

@@ -41,8 +41,16 @@ class Element:
 
 
 def element_called(elements: Iterable[Element], motion: str) -> str:
-    """Return the longest element that a motion begins with, by name; itself if there is none."""
-    within = [e.motion for e in elements if motion.startswith(e.motion)]
+    """Return the longest element that a motion begins with, by name; itself if there is none.
+
+    A sequence's name goes on with signs: 'wave again' does not begin with 'wave'.
+    """
+    within = [
+        e.motion
+        for e in elements
+        if motion.startswith(e.motion)
+        and not any(sign.isalnum() or sign == " " for sign in motion[len(e.motion) :])
+    ]
     return max(within, key=len, default=motion)
 
 

@@ -39,8 +39,8 @@ PUSHING_BUTTONS = Task(
     places={
         "UR": Place("UR", (UPPER[0], RIGHT, UPPER[1]), "the upper right"),
         "UL": Place("UL", (UPPER[0], LEFT, UPPER[1]), "the upper left"),
-        "LR": Place("LR", (LOWER[0], RIGHT, LOWER[1]), "the right button"),
-        "LL": Place("LL", (LOWER[0], LEFT, LOWER[1]), "the left button"),
+        "LR": Place("LR", (LOWER[0], RIGHT, LOWER[1]), "the lower right, where a button is"),
+        "LL": Place("LL", (LOWER[0], LEFT, LOWER[1]), "the lower left, where a button is"),
     },
     primitives=(
         Primitive("PUSH(R)", "↓", "UR", "LR", "down", effect="right_button"),

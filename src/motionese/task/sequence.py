@@ -9,7 +9,12 @@ from motionese.task.way import Way, straight
 
 @dataclass(frozen=True)
 class Place:
-    """A `position` of the hand [m, world] with a name ('UR') and a title ('the upper right')."""
+    """A `position` of the hand [m, world].
+
+    Attributes:
+        name: What it is called everywhere, such as 'UR'.
+        title: What the name stands for, such as 'the upper right'; said where it is explained.
+    """
 
     name: str
     position: tuple[float, float, float]

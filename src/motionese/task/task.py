@@ -161,9 +161,9 @@ class Task:
         return PrimitiveSequence(whole) if whole and len(whole) == len(passed) else None
 
     def in_words(self, sequence: PrimitiveSequence) -> str:
-        """Return a sequence in words, such as 'from the upper right down, then to the left'."""
+        """Return a sequence in words, such as 'from UR down, then to the left'."""
         strokes = ", then ".join(primitive.words for primitive in sequence.primitives)
-        return f"from {self.places[sequence.start].title} {strokes}"
+        return f"from {sequence.start} {strokes}"
 
     def _walk(self, text: str) -> Iterator[Primitive]:
         place, _, signs = text.strip().partition(" ")

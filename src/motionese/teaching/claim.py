@@ -39,7 +39,7 @@ class Claim:
     Attributes:
         foretold_cm: Mean distance of the foretold rest from the one that was shown [cm].
         expected_cm: The imitation's expected error [cm].
-        missed: Places, in words, at which it is not expected to do what is due.
+        missed: Places at which it is not expected to do what is due.
         like: The learned motion whose initial state is nearest to the one found; empty for none.
         apart: How far that is, as a share of the mean distance of learned motions from their
             middle; NaN for none.
@@ -113,8 +113,8 @@ def _missed(
         100 * float(np.linalg.norm(hand[rows] - task.position(primitive.end), axis=1).min())
         for primitive, rows in due
     ]
-    titles = [task.places[primitive.end].title for primitive, _ in due]
-    return tuple(title for title, cm in zip(titles, off, strict=True) if cm > REACHED_CM)
+    ends = [primitive.end for primitive, _ in due]
+    return tuple(end for end, cm in zip(ends, off, strict=True) if cm > REACHED_CM)
 
 
 def _nearest(recogniser: Recogniser, state: Float[ndarray, " N"]) -> tuple[str, float]:

@@ -19,6 +19,7 @@ from motionese.imitation.strokes import WITHIN, stroke
 from motionese.learning import generate
 from motionese.task import PrimitiveSequence
 from motionese.teaching.drawing import most_rows
+from motionese.teaching.notebook import Notebook
 from motionese.teaching.state_plane import plane_of
 from motionese.teaching.view import hand_seen
 
@@ -103,6 +104,10 @@ class InteractiveMap:
             at = self.plane.coordinates(self._origins[primitive][0])[None]
             first = self._strokes(self._scene.task.sequence(primitive), at)[0]
         return first.share(primitive)
+
+    def named_as(self, notebook: Notebook) -> None:
+        """Call the learned motions as they are called now."""
+        self.points = [(notebook.called_now(motion), at) for motion, at in self.points]
 
     def motion(self, primitive: str, at: tuple[float, float]) -> Float[ndarray, "T 3"] | None:
         """Return the hand's path [m, world] from a point, for two strokes; None if unknown."""

@@ -1,8 +1,9 @@
 """A lesson: practices one after the other, and the network that is kept of them.
 
 A practice may lead away again from the motion that is practised, or from others. So the network is
-kept that does best at the motion taught among those that, over all that the robot was taught, miss
-by no more than before; where there is none, the robot stays as it was.
+kept that does best at the motion taught, what is to be pushed first, among those that, over all
+that the robot was taught, miss by no more than before; where there is none, the robot stays as it
+was.
 """
 
 from collections.abc import Callable, Sequence
@@ -28,6 +29,7 @@ class Lesson:
         changes: The motion taught, and all others that the robot was taught, before and after.
         result: What a try comes to now.
         claim: What the robot claims of the motion now.
+        missed: Of every try how many pushes failed that were due.
     """
 
     entry: int
@@ -36,6 +38,7 @@ class Lesson:
     changes: tuple[Change, ...]
     result: Result
     claim: Claim
+    missed: tuple[int, ...]
 
     @property
     def sentence(self) -> str:
@@ -44,21 +47,29 @@ class Lesson:
         outcome = f", and it {pressed}" if pressed else ""
         if self.kept:
             return f"{taught.before_cm:.1f} → {taught.after_cm:.1f} cm{outcome}."
-        better = min(self.errors_cm[1:]) < taught.before_cm
+        tries = [*zip(self.errors_cm, self.missed, strict=True)]
+        better = any(cm < tries[0][0] and missed <= tries[0][1] for cm, missed in tries)
         why = "practising this made others worse" if better else "practice did not make it better"
         return f"{AS_BEFORE}: {why}. It misses by {taught.after_cm:.1f} cm{outcome}."
 
 
-def kept_practice(errors_cm: Sequence[float], overall_cm: Callable[[int], float]) -> int:
+def kept_practice(
+    errors_cm: Sequence[float], overall_cm: Callable[[int], float], missed: Sequence[int]
+) -> int:
     """Return after how many practices the network is kept.
 
     Args:
         errors_cm: The error at the motion taught before, and after every practice.
         overall_cm: Returns the mean error over all that was taught, after so many practices.
+        missed: How many pushes failed that were due, likewise; a push counts more than nearness.
     """
     before = overall_cm(0)
-    no_worse = (n for n in range(1, len(errors_cm)) if errors_cm[n] <= errors_cm[0])
-    best_first = sorted(no_worse, key=errors_cm.__getitem__)
+    no_worse = (
+        n
+        for n in range(1, len(errors_cm))
+        if errors_cm[n] <= errors_cm[0] and missed[n] <= missed[0]
+    )
+    best_first = sorted(no_worse, key=lambda n: (missed[n], errors_cm[n]))
     return next((n for n in best_first if overall_cm(n) <= before), 0)
 
 

@@ -1,7 +1,7 @@
 """The notebook: everything shown so far, how well it was imitated, and what was learned of it."""
 
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from jaxtyping import Float
@@ -49,6 +49,9 @@ class Change:
     after_cm: float
 
 
+Named = TypeVar("Named", Entry, Change)
+
+
 @dataclass(frozen=True)
 class Learning:
     """One learning, or one growth of the network.
@@ -79,11 +82,19 @@ class Point:
 
 @dataclass(frozen=True)
 class Notebook:
-    """Entries and learnings, the oldest first; `next` numbers the next entry."""
+    """Entries and learnings, the oldest first.
+
+    Attributes:
+        next: Numbers the next entry.
+        ended: The chapters that have ended (see `teaching.chapters`), whatever was undone since.
+        renamed: Motions' names before and after, in the order in which they were given.
+    """
 
     entries: tuple[Entry, ...] = ()
     learned: tuple[Learning, ...] = ()
     next: int = 1
+    ended: frozenset[str] = frozenset()
+    renamed: tuple[tuple[str, str], ...] = ()
 
     def entry(self, number: int) -> Entry | None:
         """Return the entry of a number, or None if there is none (any more)."""
@@ -108,6 +119,26 @@ class Notebook:
             entries=tuple(e for e in self.entries if e.number != number),
             learned=tuple(each for each in self.learned if each.entry != number),
         )
+
+    def with_name(self, motion: str, name: str) -> "Notebook":
+        """Return the notebook with a motion called by another name."""
+
+        def named(each: Named) -> Named:
+            return replace(each, motion=name) if each.motion == motion else each
+
+        learned = (replace(e, changes=tuple(map(named, e.changes))) for e in self.learned)
+        return replace(
+            self,
+            entries=tuple(map(named, self.entries)),
+            learned=tuple(learned),
+            renamed=(*self.renamed, (motion, name)),
+        )
+
+    def called_now(self, motion: str) -> str:
+        """Return what a motion is called that had this name once."""
+        for before, name in self.renamed:
+            motion = name if motion == before else motion
+        return motion
 
     def taught(self) -> dict[str, Demonstration]:
         """Return the latest demonstration of every motion that was practised."""

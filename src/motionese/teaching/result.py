@@ -16,7 +16,7 @@ class Push:
 
     Attributes:
         effect: What it has to bring about, as the body names it.
-        place: Where, in words.
+        place: Where.
         depth_mm: How deep it was [mm].
         needed_mm: How deep it must be [mm].
     """
@@ -49,9 +49,14 @@ class Result:
     pushes: tuple[Push, ...] = ()
 
     @property
+    def missed(self) -> int:
+        """How many pushes failed that were due."""
+        return sum(not push.made for push in self.pushes)
+
+    @property
     def good(self) -> bool:
         """Whether it was near enough and did all that is due."""
-        return self.error_cm <= WELL_CM and all(push.made for push in self.pushes)
+        return self.error_cm <= WELL_CM and not self.missed
 
     @property
     def advice(self) -> Literal["learn", "show"]:
@@ -81,7 +86,7 @@ def result_of(
     pushes = [
         Push(
             primitive.effect,
-            task.places[primitive.end].title,
+            primitive.end,
             float(effects[primitive.effect][window].max()),
             task.needed_mm,
         )

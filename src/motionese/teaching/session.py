@@ -226,6 +226,7 @@ class Teaching:
             tried(trial)
             outcomes.append((trial, self.standing))
         errors = tuple(trial.error_cm for trial, _ in outcomes)
+        missed = tuple(trial.result.missed for trial, _ in outcomes)
         measured: dict[int, dict[str, float]] = {}
 
         def overall(practices: int) -> float:
@@ -233,7 +234,7 @@ class Teaching:
             measured[practices] = self._errors_of(others, between)
             return float(np.mean([errors[practices], *measured[practices].values()]))
 
-        kept = kept_practice(errors, overall)
+        kept = kept_practice(errors, overall, missed)
         self._return_with_notebook(outcomes[kept][1])
         if kept < PRACTICE:
             trial = self.imitate()
@@ -241,7 +242,7 @@ class Teaching:
         changes = (taught, *(Change(m, measured[0][m], measured[kept][m]) for m in others))
         self._note(Learning(entry.number, loop, began, kept, changes))
         claim = self._judged_again().claim
-        return Lesson(entry.number, errors, kept, changes, trial.result, claim)
+        return Lesson(entry.number, errors, kept, changes, trial.result, claim, missed)
 
     def _practise(self, trial: Trial, loop: int, report: Report, practice: int) -> None:
         """Train on what the own body did in a try, and look at what was shown again."""
@@ -280,7 +281,7 @@ class Teaching:
             return f"{entry.motion} is out of the notebook."
         if all(each.entry == number for each in since):
             earlier = since[0].before
-            learner = kept(earlier)
+            learner = kept(earlier).renamed(notebook.renamed)
             self.return_to(replace(self.standing, learner=learner, number=earlier, results={}))
             return f"{entry.motion} is forgotten: the network is again what it was before."
         loops = {each.loop - i for each in since if each.entry == number for i in range(PRACTICE)}
@@ -371,6 +372,7 @@ class Teaching:
         """Return a name that no motion has had."""
         named = [entry.motion for entry in self.notebook.entries]
         named += [experience.motion for experience in self.learner.experiences]
+        named += [name for pair in self.notebook.renamed for name in pair]
         numbers = [int(n[1]) for name in named if (n := re.fullmatch(rf"{OWN} (\d+)", name))]
         return f"{OWN} {max(numbers, default=0) + 1}"
 

@@ -134,6 +134,9 @@ class SessionFolder:
                 entries=tuple(self._entry(each) for each in facts["entries"]),
                 learned=tuple(_learning(each) for each in facts["learned"]),
                 next=int(facts["next"]),
+                # Sessions of before there were chapters and names are read as well.
+                ended=frozenset(facts.get("ended", ())),
+                renamed=tuple((old, new) for old, new in facts.get("renamed", ())),
             )
             emerged = tuple(_emergence(each) for each in facts.get("emerged", ()))
         if begin and begin not in {self.began, *origins(self.path)}:
@@ -215,6 +218,8 @@ class SessionFolder:
             "learner": teaching.standing.number,
             "learners": teaching.numbers,
             "next": teaching.notebook.next,
+            "ended": sorted(teaching.notebook.ended),
+            "renamed": teaching.notebook.renamed,
             "entries": entries,
             "learned": [asdict(each) for each in teaching.notebook.learned],
             "emerged": [asdict(each) for each in teaching.emerged],

@@ -52,7 +52,7 @@ def test_a_page_is_told_all_it_needs(client):
     assert own.heard[0] == {"type": "owner", "yours": True, "sentence": ""}
     task = scene["task"]
     assert set(task["places"]) == {"UR", "UL", "LR", "LL"}
-    assert task["places"]["LR"]["title"] == "the right button"
+    assert task["places"]["LR"]["title"] == "the lower right, where a button is"
     assert [effect["places"] for effect in task["effects"]] == [["LR"], ["LL"]]
     assert {(p["sign"], p["start"]) for p in task["primitives"]} >= {("↓", "UR"), ("←", "UR")}
     assert len(task["motions"]) == 5 + 6 + 7 and scene["rate_hz"] == 10

@@ -58,6 +58,8 @@ def test_a_killed_robot_comes_back_with_all_but_the_motion_under_way(session):
         assert client.hub.worker_pid != killed
         again = [m for m in own.heard if m["type"] == "session"][-1]
         assert again["notebook"] == before["notebook"] and again["id"] == before["id"]
+        assert (again["shown"], again["watched"]) == (before["shown"], before["watched"])
+        assert before["chapter"]["name"] == "try" and again["chapter"] == before["chapter"]
         for message in strokes("UR ←"):
             own.say(message)
         assert own.hear("verdict")["shown"] == "UR ←"
@@ -141,19 +143,6 @@ def test_a_full_disk_is_told_and_the_robot_goes_on(session, draw_with, monkeypat
     monkeypatch.setattr(folder, "save", full)
     draw_with(robot, "UR ↓")
     assert told[-1] == {"type": "told", "kind": "error", "sentence": "no space left"}
-
-
-@pytest.fixture
-def draw_with():
-    """Draw a motion for a robot in this process."""
-
-    def drawn(robot, name):
-        for message in strokes(name):
-            points = [tuple(point) for point in message["points"]]
-            more = {"source": "drawn", "follow": False, "received": time.monotonic()}
-            robot.take({**message, "points": points, **more})
-
-    return drawn
 
 
 def test_a_robot_that_cannot_begin_says_why_and_is_not_tried_again(tmp_path):

@@ -16,6 +16,7 @@ from motionese.interfaces.page.messages import Answer, Tell
 from motionese.learning import Progress
 from motionese.network import MTRNN
 from motionese.task import PrimitiveSequence, Task
+from motionese.teaching.chapters import TITLES, Chapter, chapter_of
 from motionese.teaching.claim import Claim
 from motionese.teaching.emergence import CLEAR, Emergence
 from motionese.teaching.frames import Film
@@ -26,6 +27,7 @@ from motionese.teaching.online_recogniser import Understanding
 from motionese.teaching.result import Result
 from motionese.teaching.session import Observation, Teaching
 from motionese.teaching.trial import Trial
+from motionese.teaching.verdict import sequence_called
 from motionese.teaching.view import ASPECT, View
 
 DIGITS = 4
@@ -82,7 +84,7 @@ def _task(task: Task, view: View) -> Answer:
         "effects": [
             {
                 "name": effect,
-                "title": effect.replace("_", " "),
+                "title": ", ".join(p.end for p in task.primitives if p.effect == effect),
                 "places": [p.end for p in task.primitives if p.effect == effect],
             }
             for effect in task.effects
@@ -103,6 +105,7 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
             "source": entry.source,
             "errors": [round(error, 2) for error in entry.errors_cm],
             "learned": entry.number in learned,
+            "own": sequence_called(entry.motion, teaching.scene.task) is None,
         }
         for entry in notebook.entries
     ]
@@ -124,8 +127,16 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
         "shown": observed.entry.number if observed else None,
         "watched": listed(view.of_points(observed.watched.path)) if observed else [],
         "suggest": suggestion,
+        "chapter": _chapter(chapter_of(teaching)),
         "busy": busy,
     }
+
+
+def _chapter(chapter: Chapter | None) -> Answer | None:
+    if chapter is None:
+        return None
+    told = {"name": chapter.name, "number": chapter.number, "of": len(TITLES)}
+    return {**told, "title": TITLES[chapter.name], "act": chapter.act, "motion": chapter.motion}
 
 
 def _last_error(notebook: Notebook) -> float:
@@ -303,6 +314,7 @@ def learned_message(lesson: Lesson) -> Answer:
         "kept": lesson.kept,
         "changes": _changes(lesson.changes),
         "sentence": lesson.sentence,
+        "advice": lesson.result.advice,
         "claim": _claim(lesson.claim),
     }
 

@@ -69,6 +69,14 @@ class OfEntry(Said):
     entry: Annotated[int, Field(ge=0, le=10**6)]
 
 
+class Rename(Said):
+    """A motion of the person's own is to be called otherwise."""
+
+    type: Literal["rename"]
+    motion: Annotated[str, Field(max_length=64)]
+    name: Annotated[str, Field(max_length=64)]
+
+
 class Hover(Said):
     """The motion of a point of the map is wanted."""
 
@@ -119,7 +127,9 @@ class Plain(Said):
     type: Literal["imitate", "learn", "grow", "map", "compare", "stop"]
 
 
-Message = Hello | Pen | Demonstrate | OfEntry | Hover | Begin | OfRobot | Call | Open | Plain
+Message = (
+    Hello | Pen | Demonstrate | OfEntry | Rename | Hover | Begin | OfRobot | Call | Open | Plain
+)
 _MESSAGES: TypeAdapter[Message] = TypeAdapter(Annotated[Message, Field(discriminator="type")])
 
 

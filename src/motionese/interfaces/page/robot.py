@@ -18,9 +18,11 @@ from motionese.interfaces.page.messages import Answer, Tell
 from motionese.interfaces.page.pen import Pen
 from motionese.interfaces.page.robots import Robots
 from motionese.learning import Progress
+from motionese.teaching.chapters import MAP, end_chapters
 from motionese.teaching.drawing import DrawingError, most_rows
 from motionese.teaching.frames import Film, film
 from motionese.teaching.interactive_map import InteractiveMap
+from motionese.teaching.names import rename
 from motionese.teaching.notebook import Entry, Source
 from motionese.teaching.practice import Report
 from motionese.teaching.school import Pupil, School
@@ -129,6 +131,7 @@ class Robot:
                 "learn": self._learn,
                 "forget": self._forget,
                 "replay": self._replay,
+                "rename": self._rename,
                 "grow": self._grow,
                 "map": self._draw_map,
                 "repeat": self._repeat,
@@ -204,6 +207,7 @@ class Robot:
         self._save()
 
     def _save(self) -> None:
+        end_chapters(self.teaching)
         self._folder.save(self.teaching)
         self.tell_session()
 
@@ -292,6 +296,16 @@ class Robot:
         self.tell_session()
         yield 0.0
 
+    def _rename(self, message: dict[str, Any]) -> Iterator[float]:
+        rename(self.teaching, message["motion"], message["name"])
+        if self._map is not None:
+            self._map.named_as(self.teaching.notebook)
+            self._tell(descriptions.map_message(self._map))
+        self._save()
+        if self.teaching.observed is not None:
+            self._tell(descriptions.verdict_message(self.teaching.observed, self._view, 0.0))
+        yield 0.0
+
     def _film(self, trial: Trial) -> Film:
         rate_hz = self.teaching.scene.body.rate_hz
         return film(self._geometry, trial.levels, trial.performance, rate_hz)
@@ -353,3 +367,5 @@ class Robot:
             at = {"slow": message["slow"], "primitive": message["primitive"]}
             seen = descriptions.listed(self._view.of_points(path))
             self._tell({"type": "hovered", **at, "path": seen})
+            if end_chapters(self.teaching, MAP):
+                self._save()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from motionese.interfaces.page.messages import Answer, Tell
+from motionese.teaching.chapters import end_chapters
 from motionese.teaching.notebook import Entry
 from motionese.teaching.packed_session import SUFFIX
 from motionese.teaching.school import MOST, Pupil, School, exchange, lessons, lessons_left
@@ -50,11 +51,18 @@ class Robots:
         return other.folder.name, lessons_left(taught.teaching.notebook, other.teaching.notebook)
 
     def warm_up(self) -> None:
-        """Let what the taught robot asks for be compiled, if no other of its size has done it."""
-        sizes = tuple(self._robot.teaching.learner.network.sizes)
+        """Let what the taught robot asks for be compiled, if no other of its size has done it.
+
+        What is imitated next is what is shown, also after the process was killed.
+        """
+        teaching = self._robot.teaching
+        sizes = tuple(teaching.learner.network.sizes)
         if sizes not in self._warm:
-            self._robot.teaching.warm_up()
+            teaching.warm_up()
             self._warm.add(sizes)
+        if teaching.observed is None and teaching.notebook.entries:
+            teaching.look_back(teaching.notebook.entries[-1].number)
+            self._robot.tell_session()
 
     def _hint(self, sentence: str) -> None:
         self._tell({"type": "told", "kind": "hint", "sentence": sentence})
@@ -72,7 +80,10 @@ class Robots:
         away = school.pupil(message["away"]) if message["away"] else None
         self._robot.tell_session("beginning anew")
         yield 0.0
+        ended = school.taught.teaching.notebook.ended
         new = school.begin(message["with"], message["grows"], message["name"], away)
+        end_chapters(new.teaching, *ended)
+        new.folder.save(new.teaching)
         yield from self._become(new)
         gone = f" {away.folder.name} is put away in the session's folder." if away else ""
         self._hint(f"You are teaching {new.folder.name} now.{gone}")

@@ -1,6 +1,7 @@
 // What goes on inside: joint angles and the activity of the levels over time.
 
 import { colours, fitted, made, onScheme, titled } from "./dom.js";
+import { term } from "./explain.js";
 import uPlot from "./vendor/uplot.js";
 
 /** How much of the past is shown [s]. */
@@ -195,7 +196,8 @@ export class Activity {
       figure("joints", ["Arm [°] ", ...keys(joints), goal]),
       ...levels.map(({ name, size }, i) =>
         figure(name, [
-          `${titled(name)} `,
+          term(name, titled(name)),
+          " ",
           ...(i ? [made("small", "", `${role(i, levels.length)}, ${size} units`)] : io),
         ]),
       ),

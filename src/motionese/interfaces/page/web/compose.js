@@ -1,6 +1,6 @@
 // Showing a motion with the keyboard: a cursor goes from place to place along straight strokes.
 
-import { placeInWords, placeTowards, task } from "./task.js";
+import { placeTowards, task } from "./task.js";
 
 const KEYS = {
   ArrowDown: [0, 1],
@@ -35,7 +35,7 @@ export function composable(surface, to) {
   const walk = (direction) => {
     const next = placeTowards(here(), direction);
     if (!next) {
-      to.tell(`There is no place that way from ${placeInWords(here())}.`);
+      to.tell(`There is no place that way from ${here()}.`);
       return;
     }
     chosen = next;

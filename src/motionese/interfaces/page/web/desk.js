@@ -1,13 +1,15 @@
 // The desk around the view: the one line, buttons and what they do, and passing messages.
 
 import { allow, allowed, made, part, say } from "./dom.js";
-import { guide } from "./guide.js";
+import { chapterInWords, due, guide } from "./guide.js";
 import { showNetwork } from "./network.js";
-import { read } from "./task.js";
+import { read, withPlaces } from "./task.js";
 
 const TOAST_MS = 7000;
 /** What takes long enough for a bar, and can be stopped. */
 const LONG = ["learning", "growing", "comparing"];
+/** The buttons of what is to be done. */
+const NEXT = { imitate: "imitate", learn: "learn", grow: "grow", map: "map-draw" };
 const PHASES = { 1: "Phase 1: single strokes", 2: "Phase 2: sequences" };
 
 /**
@@ -57,7 +59,9 @@ export function tidy(now) {
   document.body.dataset.state = !open ? "lost" : now.ready ? "ready" : "connecting";
   say(part("connection"), connectionInWords(now, open));
   say(part("phase"), PHASES[session.phase] ?? `Phase ${session.phase}`);
-  say(part("guide"), guide(now));
+  speak(guide(now));
+  // While it is played what comes of it, the chapter is what it was.
+  if (!session.busy && !now.practising) say(part("chapter"), chapterInWords(session));
   say(part("network-note"), session.suggest || "Levels, from fast to slow.");
   const free = now.ready && !session.busy && !now.drawing;
   const enabled = {
@@ -77,11 +81,9 @@ export function tidy(now) {
   for (const button of document.querySelectorAll("button[data-free]")) allow(button, free);
   for (const name of part("comparison").querySelectorAll("input")) name.readOnly = !free;
   part("motions").disabled = !free;
-  const advising = { judged: now.verdict, performed: now.performed, replayed: now.replayed };
-  const { advice } = advising[now.step] ?? {};
-  part("imitate").classList.toggle("next", advice === "imitate");
-  part("learn").classList.toggle("next", advice === "learn");
-  part("grow").classList.toggle("next", Boolean(session.suggest));
+  const { act } = due(now);
+  for (const [id, button] of Object.entries(NEXT))
+    part(button).classList.toggle("next", act === id);
   const isLong = LONG.includes(session.busy);
   // A button that goes does not take the focus with it.
   if (!isLong && document.activeElement === part("stop")) part("learn").focus();
@@ -93,6 +95,12 @@ export function tidy(now) {
   part("notebook-empty").hidden = session.notebook.length > 0;
   offerExport(session.notebook.length > 0);
   if (scene) showNetwork(part("network"), scene.levels, session.levels, scene.channels);
+}
+
+/** Say the one line, once, with its places as they are in the view. */
+function speak(sentence) {
+  if (part("guide").textContent === sentence) return;
+  part("guide").replaceChildren(made("span", "", withPlaces(sentence)));
 }
 
 /** Return which robot this is. */

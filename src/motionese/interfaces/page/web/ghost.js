@@ -38,8 +38,10 @@ export class Ghost {
     this.view.mark({ promise: path, hand: path[0], shown: null });
     if (prefersStillness()) return;
     const period = path.at(-1)[0] + PAUSE_MS;
+    // It rests where one must press: whoever does as it does begins there.
     this.pace.start((elapsed) => {
-      if (!document.hidden) this.#show(path, elapsed % period);
+      const t = Math.max((elapsed % period) - PAUSE_MS, 0);
+      if (!document.hidden) this.#show(path, t);
       return true;
     });
   }

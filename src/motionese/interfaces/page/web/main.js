@@ -6,11 +6,13 @@ import { showCurves } from "./curves.js";
 import { furnish, listMotions, notice, showProgress, tell, tidy } from "./desk.js";
 import { onScheme, part, prefersStillness, say } from "./dom.js";
 import { showEmergence } from "./emergence.js";
+import { explain } from "./explain.js";
 import { Ghost } from "./ghost.js";
 import { Lesson } from "./lesson.js";
 import { LessonFilm } from "./lesson_film.js";
 import { Live } from "./live.js";
 import { StateMap } from "./map.js";
+import { furnishNaming } from "./naming.js";
 import { showGrown, showNotebook } from "./notebook.js";
 import { pathAlong } from "./paths.js";
 import { Playback } from "./playback.js";
@@ -46,6 +48,7 @@ const now = {
     levels: [],
     busy: "",
     suggest: "",
+    chapter: null,
     shown: null,
     can_grow: false,
   },
@@ -111,6 +114,7 @@ const heard = {
   },
   session(message) {
     if (message.id !== now.session.id) beginAnew();
+    else if (isUndone(message)) takenBack(message);
     now.session = message;
     showCurves(part("chart-curve"), message.curves, message.grown);
     showNotebook(
@@ -346,11 +350,26 @@ function judge() {
 
 /** Return the motion to be shown next: what was never shown, else what goes worst. */
 function nextMotion() {
-  const strokes = now.session.phase;
+  const { chapter, phase: strokes } = now.session;
+  if (chapter?.act === "show") return chapter.motion;
   const known = task.motions.filter((motion) => read(motion).signs.length === strokes);
   const errors = new Map(now.session.notebook.map((e) => [e.motion, e.errors.at(-1) ?? Infinity]));
   const fresh = known.find((motion) => !errors.has(motion));
   return fresh ?? known.toSorted((a, b) => errors.get(b) - errors.get(a))[0] ?? "";
+}
+
+/** Whether something is no longer in the notebook. */
+function isUndone({ notebook }) {
+  const left = new Set(notebook.map(({ entry }) => entry));
+  return now.session.notebook.some(({ entry }) => !left.has(entry));
+}
+
+/** Say no longer what is not so any more: of what was undone, or by a network that is no more. */
+function takenBack({ shown }) {
+  if (shown === null) clearResult();
+  now.step = "";
+  showClaim(null);
+  say(part("attempt"), "What the robot does");
 }
 
 const motionOf = (entry) => now.session.notebook.find((one) => one.entry === entry)?.motion ?? "";
@@ -359,8 +378,9 @@ const motionOf = (entry) => now.session.notebook.find((one) => one.entry === ent
 function remember() {
   const isIdle =
     !showing.drawing && !ghost.plays && !now.awaited && !now.pending && !now.session.busy;
-  if (isIdle && !now.step && now.session.shown !== null && !view.marks.drawn?.length)
-    view.mark({ drawn: now.session.watched });
+  if (!isIdle || now.step || now.session.shown === null || view.marks.drawn?.length) return;
+  view.mark({ drawn: now.session.watched });
+  showMotion(motionOf(now.session.shown));
 }
 
 /** Bring the stage into the window where some parts of it are not, as on a phone. */
@@ -403,12 +423,13 @@ function refresh() {
     keyed: showing.keyed,
     ghost: ghost.plays && now.touched,
     busy: now.session.busy || (now.awaited ? "recognising" : ""),
-    suggest: now.session.suggest,
+    mapped: Boolean(map.map),
     next: nextMotion(),
-    first: now.session.notebook.length === 0,
   });
 }
 
+furnishNaming(send);
+explain();
 const watch = () => toTheStage(part("robot"));
 furnish(send, touched, watch, explore, () => live.greet(true));
 robotsBegun(send);
@@ -431,6 +452,7 @@ window.teach = {
     session: now.session.id,
     busy: now.session.busy,
     step: now.step,
+    hand: view.marks.hand?.slice(-2),
     ready: isReady(),
     watching: Boolean(canWatch()),
     drawing: showing.drawing,

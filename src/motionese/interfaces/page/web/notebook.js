@@ -2,6 +2,7 @@
 
 import { sparkline } from "./curves.js";
 import { made } from "./dom.js";
+import { named } from "./naming.js";
 import { inWords, pictured } from "./task.js";
 
 const SOURCES = { drawn: "drawn", webcam: "webcam", scripted: "by itself" };
@@ -15,9 +16,9 @@ export function showNotebook(list, entries, replay, forget) {
   list.querySelector(`button[data-entry="${entry}"][data-testid="${does}"]`)?.focus();
 }
 
-function row({ entry, motion, source, errors, learned }, replay, forget) {
+function row({ entry, motion, source, errors, learned, own }, replay, forget) {
   const what = made("span", "what", [
-    ...pictured(motion),
+    ...(own ? [named(motion)] : pictured(motion)),
     made("span", "source", SOURCES[source] ?? source),
   ]);
   if (learned) what.append(made("span", "learned", "learned"));

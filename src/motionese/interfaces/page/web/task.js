@@ -22,10 +22,10 @@ export function takeTask(told, wide) {
 export function read(motion) {
   const [start, ...rest] = (motion || "").trim().split(/\s+/);
   const known = new Set(task.primitives.map(({ sign }) => sign));
-  return {
-    start: start in task.places ? start : "",
-    signs: [...rest.join("")].filter((sign) => known.has(sign)),
-  };
+  const signs = [...rest.join("")];
+  // A motion of one's own may begin with any word.
+  const isSequence = start in task.places && signs.every((sign) => known.has(sign));
+  return isSequence ? { start, signs } : { start: "", signs: [] };
 }
 
 /** Return the primitives that a motion consists of. */
@@ -40,16 +40,20 @@ export function primitivesOf(motion) {
   return parts;
 }
 
-/** Return a motion in words: "from the upper right: down, to the left". */
+/** Return a motion in words: "from UR: down, to the left"; one of a person's own by its name. */
 export function inWords(motion) {
   const { start } = read(motion);
-  if (!start) return "nothing";
+  if (!start) return motion || "nothing";
   const strokes = primitivesOf(motion).map(({ words }) => words);
-  return `from ${placeInWords(start)}: ${strokes.join(", ") || "resting"}`;
+  return `from ${start}: ${strokes.join(", ") || "resting"}`;
 }
 
-/** Return a place in words. */
-export const placeInWords = (name) => task.places[name]?.title ?? name;
+/** Return a sentence as parts, in which places look as they do in the view. */
+export function withPlaces(sentence) {
+  return sentence
+    .split(/(\p{L}+)/u)
+    .map((word) => (word in task.places ? made("b", colourAt(word) ?? "", word) : word));
+}
 
 /** Return the place that lies most in a direction [x, y] from another; undefined if none does. */
 export function placeTowards(name, [dx, dy]) {

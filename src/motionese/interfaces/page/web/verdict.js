@@ -1,7 +1,10 @@
 // What was seen, as large arrows and likely motions, and whether the robot says that it can do it.
 
-import { inWords, pictured, read } from "./task.js";
 import { made, part, say } from "./dom.js";
+import { named } from "./naming.js";
+import { inWords, pictured, read } from "./task.js";
+
+const NOTHING = () => made("span", "nothing", "nothing yet");
 
 /** Show what was seen {motion, share}, the likeliest first; it is named `motion` from now on. */
 function showSeen(seen, motion = seen[0]?.motion ?? "") {
@@ -11,7 +14,8 @@ function showSeen(seen, motion = seen[0]?.motion ?? "") {
 
 /** Show the motion that all this is about, or none. */
 export function showMotion(motion) {
-  const shown = motion ? pictured(motion) : [made("span", "nothing", "nothing yet")];
+  const own = motion && !read(motion).start;
+  const shown = own ? [named(motion)] : motion ? pictured(motion) : [NOTHING()];
   part("verdict-arrows").replaceChildren(...shown);
 }
 
