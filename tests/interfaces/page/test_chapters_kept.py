@@ -21,10 +21,10 @@ def test_a_new_robot_goes_on_with_the_chapters_of_the_one_before(
     draw_with(robot, "UR ↓")
     assert last(told, "session")["chapter"]["title"] == "Watch it fail"
     does("imitate")
-    does("begin", **{"with": "fresh"})
+    does("begin", **{"with": "fresh", "grows": "told", "name": "", "away": ""})
     chapter = last(told, "session")["chapter"]
     assert (chapter["number"], chapter["act"], chapter["motion"]) == (3, "show", "UL ↓")
-    assert SessionFolder(tmp_path / "session").read().notebook.ended == {"push", "try"}
+    assert SessionFolder(tmp_path / "session" / "robot-2").read().notebook.ended == {"push", "try"}
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 // Which primitives are clear yet: the measures of the experiment, of the robot on the page.
 
 import { made, shape, titled } from "./dom.js";
-import { pictured, placeInWords, primitivesOf } from "./task.js";
+import { pictured, primitivesOf } from "./task.js";
 
 const [WIDE, HIGH] = [100, 12];
 
@@ -37,7 +37,7 @@ function direction(each, slow, clear) {
   ]);
   return made("li", each.clear && slow ? "clear" : "", [
     made("span", "what", pictured(primitive)),
-    made("span", "words", `${words}, to ${placeInWords(end)}`),
+    made("span", "words", `${words}, to ${end}`),
     history.length > 1 ? course(history) : "",
     svg,
     made("span", "said", `${sentence}.`),

@@ -1,7 +1,7 @@
 // The map of initial states, beside the eye view: which way does the hand go from each of them?
 
 import { made, colours, fitted, onScheme, part, say, titled } from "./dom.js";
-import { colourAt, placeInWords, primitivesOf, task } from "./task.js";
+import { colourAt, primitivesOf, task } from "./task.js";
 
 const SEND_EVERY_MS = 60;
 /** Room for the axes' names, and for what lies at the rim [px]. */
@@ -268,11 +268,11 @@ export class StateMap {
 
 const percent = (share) => `${Math.round(100 * share)} %`;
 
-/** Return a way in words: "down, to the right button". */
+/** Return a way in words: "down, to LR". */
 function wayInWords(name) {
   if (name in ASTRAY) return ASTRAY[name];
   const [{ words, end }] = primitivesOf(name);
-  return `${words}, to ${placeInWords(end)}`;
+  return `${words}, to ${end}`;
 }
 
 /** Return the name of a way's colour: that of the place it leads to. */
