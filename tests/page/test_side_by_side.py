@@ -54,7 +54,7 @@ def test_robots_are_compared_by_the_same_lessons_and_shared_as_a_file(
             ["when you say", "IO, Cf", "1"],
             ["from the beginning", "IO, Cf, Cs", "1"],
         ]
-        assert [first[3][1:], tall[3][1:]] == [" of 1", " of 1"]
+        assert [first[4][1:], tall[4][1:]] == [" of 1", " of 1"]
         assert all("cm" in cell for cell in (*first[4:], *tall[4:])) and len(tall) == 6
 
         person.page.get_by_label("Name of Robot 1").fill("Late")

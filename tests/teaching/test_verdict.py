@@ -1,6 +1,8 @@
 """The verdict: what was seen and whether it can be done, in words, and the advice."""
 
 import numpy as np
+from dataclasses import replace
+
 import pytest
 
 from motionese.caregiver import SOMETHING_ELSE, intended_way
@@ -51,6 +53,8 @@ def test_a_result_says_how_near_it_came_and_what_it_pressed():
     assert "pressed LR: 6.1 mm of the 5 it needs" in pressed.sentence
     assert "does this well" in pressed.sentence and "does this well" not in missed.sentence
     assert "4.2 mm; 5 are needed" in missed.sentence
+    untouched = Result(4.0, (replace(MISSED, depth_mm=0.0),))
+    assert untouched.sentence.endswith(f"and did not press {MISSED.place}.")
     assert Result(3.0).sentence == "It missed by 3.0 cm."
 
 

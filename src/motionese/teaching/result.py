@@ -38,6 +38,8 @@ class Push:
             return (
                 f"pressed {self.place}: {self.depth_mm:.1f} mm of the {self.needed_mm:g} it needs"
             )
+        if not round(self.depth_mm, 1):
+            return f"did not press {self.place}"
         return f"pressed {self.place} {self.depth_mm:.1f} mm; {self.needed_mm:g} are needed"
 
 

@@ -44,5 +44,7 @@ def test_a_point_of_the_map_ends_the_last_chapter_and_a_name_is_on_the_map(
     assert {point["motion"] for point in last(told, "map")["points"]} <= {"wave"}
     does("rename", motion="wave", name="UR ↓")
     assert "choose another name" in last(told, "told")["sentence"]
-    robot.take({"type": "hover", "slow": (0.0, 0.0), "primitive": "UR ↓"})
+    for at in (0.0, 0.5, 0.5, 1.0):
+        assert "map" not in SessionFolder(tmp_path / "session").read().notebook.ended
+        robot.take({"type": "hover", "slow": (at, 0.0), "primitive": "UR ↓"})
     assert "map" in SessionFolder(tmp_path / "session").read().notebook.ended

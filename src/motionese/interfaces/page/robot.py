@@ -35,6 +35,8 @@ from motionese.teaching.view import View
 T = TypeVar("T")
 GHOST_S = 0.2
 """While the scripted caregiver shows, what is understood is told this often."""
+EXPLORED = 3
+"""A map is explored when so many of its points were looked at: the first comes by itself."""
 NOT_THERE = "This entry is not in the notebook any more."
 NOTHING_SHOWN = "Show me a motion first: draw one, or let the caregiver show one."
 
@@ -87,6 +89,7 @@ class Robot:
     def _network_changed(self) -> None:
         """Forget what was measured of another network; what is to be, is when there is time."""
         self._map: InteractiveMap | None = None
+        self._pointed_at: set[tuple[float, ...]] = set()
         self._reflection: Iterator[None] | None = self._reflected()
 
     def introduce(self) -> None:
@@ -367,5 +370,6 @@ class Robot:
             at = {"slow": message["slow"], "primitive": message["primitive"]}
             seen = descriptions.listed(self._view.of_points(path))
             self._tell({"type": "hovered", **at, "path": seen})
-            if end_chapters(self.teaching, MAP):
+            self._pointed_at.add(tuple(message["slow"]))
+            if len(self._pointed_at) >= EXPLORED and end_chapters(self.teaching, MAP):
                 self._save()
