@@ -1,10 +1,12 @@
 """A study: a robot that imitates, stages of development, and the factors that are varied."""
 
+from collections.abc import Iterable
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
-from motionese.caregiver import Manner
+from motionese.body import open_body
+from motionese.caregiver import Manner, check_reach
 from motionese.errors import MotioneseError, SettingError, unknown
 from motionese.experiment.conditions import Condition, conditions_of
 from motionese.imitation import Group, Settings, Stage, Until
@@ -55,11 +57,21 @@ class Study(Settings):
     @model_validator(mode="after")
     def _stages_can_be_gone_through(self) -> "Study":
         try:
-            for condition in self.conditions:
-                self.development(condition)
+            stages = [stage for each in self.conditions for stage in self.development(each)]
+            emphatic = [s for s in stages if s.manner.motionese.leaves_the_way]
+            if emphatic:
+                self._check_reach(emphatic)
         except MotioneseError as error:
             raise ValueError(str(error)) from error
         return self
+
+    def _check_reach(self, stages: Iterable[Stage]) -> None:
+        """Refuse motionese that no robot can follow, before anything is run."""
+        task = self.task.task()
+        body = open_body(self.body.model_copy(update={"vision": "projection"}), task)
+        shown = {(repr(s.manner), s.lesson): s for s in stages}
+        for stage in shown.values():
+            check_reach(task, stage.manner, body, stage.lesson)
 
     @property
     def conditions(self) -> tuple[Condition, ...]:

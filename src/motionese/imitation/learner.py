@@ -12,6 +12,7 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import StorageError
+from motionese.imitation.attention import Weigh
 from motionese.imitation.keys import key_for
 from motionese.imitation.repertoire import (
     Element,
@@ -143,6 +144,7 @@ class Learner:
         *,
         key: Array | None = None,
         padded_to: tuple[int, int] = (0, 0),
+        weigh: Weigh | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> tuple["Learner", Fit]:
         """Return what the learner becomes by training on all its experiences, and the fit.
@@ -152,9 +154,10 @@ class Learner:
             rate_hz: Rows a second.
             key: JAX random key of the state noise.
             padded_to: Motions and rows that training is compiled for, where there are fewer.
+            weigh: How much each row of an experience weighs; alike where left out.
             progress: Called while it trains.
         """
-        motions = self.motions(rate_hz)
+        motions = self.motions(rate_hz, weigh)
         fit = train(
             self.network,
             motions,
@@ -202,14 +205,22 @@ class Learner:
                     known[level, member] = replace(of, initial_state=state)
         return replace(self, elements=tuple(known.values()))
 
-    def motions(self, rate_hz: float) -> Motions:
-        """Return the experiences as motions to train on; NaN is what was not observed."""
+    def motions(self, rate_hz: float, weigh: Weigh | None = None) -> Motions:
+        """Return the experiences as motions to train on; NaN is what was not observed.
+
+        Args:
+            rate_hz: Rows a second.
+            weigh: How much each row of an experience weighs; alike where left out.
+        """
+        width = len(self.channels)
         return Motions.from_arrays(
             [e.values for e in self.experiences],
             self.channels,
             rate_hz,
             observed=[np.isfinite(e.values) for e in self.experiences],
             names=[e.name for e in self.experiences],
+            weights=weigh
+            and [np.repeat(weigh(e.values)[:, None], width, axis=1) for e in self.experiences],
         )
 
     @property

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from motionese.caregiver import Manner
+from motionese.imitation.attention import attention
 from motionese.imitation.development import Stage
 from motionese.imitation.keys import key_for
 from motionese.imitation.learner import Learner
@@ -116,6 +117,7 @@ def imitation_loop(
         rate_hz,
         key=key_for(scene.seed, "training", loop),
         padded_to=(capacity, 0),
+        weigh=attention(scene.body, settings),
     )
     recalled = _recalled(scene, learner, imitated, loop)
     seconds = (time.perf_counter() - began) / len(imitated)

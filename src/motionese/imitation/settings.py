@@ -1,7 +1,7 @@
 """What may be varied about an imitation, as types with their allowed ranges."""
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, TypeVar, get_args
+from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
@@ -89,15 +89,29 @@ class Acting(Group):
     rehearsal: bool
 
 
+class Attention(Group):
+    """What weighs more in equation (3), see `imitation.attention`.
+
+    Attributes:
+        to: Rows in which the seen hand rests, or those in which it moves.
+        strength: s; with 0 all rows weigh alike.
+    """
+
+    to: Literal["rests", "movement"] = "rests"
+    strength: float = Field(default=0.0, ge=0, le=100)
+
+
 class StagedTraining(Training):  # type: ignore[metaclass]
     """Training all through a development.
 
     Attributes:
+        attention: What weighs more.
         shared: By level, which motions share its initial states; nobody where it is not named.
         grouping: How it is known which element of a repertoire a motion begins with; its first
             primitive is always known by name.
     """
 
+    attention: Attention = Attention()
     shared: dict[str, Sharing] = Field(default_factory=dict)
     grouping: Grouping = "labels"
 
@@ -126,7 +140,12 @@ class Roles(Group):
 
 
 class Evaluation(Group):
-    """Recognition of new motions and of shown ones, and the map of the slow initial states."""
+    """Recognition of new motions and of shown ones, and the map of the slow initial states.
+
+    Attributes:
+        motionese: Whether what is shown has what is left of motionese after the last loop, or is
+            as to an adult.
+    """
 
     recognition: Recognition
     repertoire: Recognition
@@ -134,6 +153,7 @@ class Evaluation(Group):
     roles: Roles
     map_points: int = Field(ge=2)
     map_range: float = Field(gt=0, allow_inf_nan=False)
+    motionese: bool = False
 
 
 class Settings(Group):
@@ -171,6 +191,15 @@ class Settings(Group):
                 )
             if level not in below:
                 raise ValueError(unknown("level in training.shared", level, below))
+        return self
+
+    @model_validator(mode="after")
+    def _rest_can_be_told_from_noise(self) -> "Settings":
+        if self.training.attention.strength and not self.body.pixel_noise:
+            raise ValueError(
+                "training.attention.strength above 0 needs body.pixel_noise above 0: what rests is "
+                "told by the speed that this noise alone makes"
+            )
         return self
 
 
