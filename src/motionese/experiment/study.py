@@ -140,7 +140,17 @@ class Study(Settings):
             if name not in Manner.model_fields:
                 known = [*Manner.model_fields, *self._choices()]
                 raise SettingError(unknown(f"setting in stages.{number}.caregiver", name, known))
-        return Manner.model_validate({**self.caregiver.model_dump(), **differing})
+        return Manner.model_validate(_laid_over(self.caregiver.model_dump(), differing))
 
     def _choices(self) -> list[str]:
         return [choice for choices in self.factors.values() for choice in choices]
+
+
+def _laid_over(table: dict[str, Any], differing: dict[str, Any]) -> dict[str, Any]:
+    """Return a table with what differs, group by group."""
+    within = {
+        name: _laid_over(table[name], value)
+        for name, value in differing.items()
+        if isinstance(value, dict) and isinstance(table.get(name), dict)
+    }
+    return {**table, **differing, **within}

@@ -1,6 +1,6 @@
 """What a robot has become: its network and the experiences it learns from; how it is kept."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
@@ -41,6 +41,8 @@ from motionese.network import MTRNN, grow
 
 S = TypeVar("S", Training, Recognition)
 BABBLING = "babbling"
+Nearest = Callable[[Sequence[Element], Float[ndarray, "T D"], Float[ndarray, " D"]], str]
+"""The element nearest to what was seen, see `element_seen`."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,10 @@ class Learner:
         return replace(self, experiences=(*self.experiences, fresh))
 
     def begins_with(
-        self, motion: str, shown: Float[ndarray, "T D"] | None = None
+        self,
+        motion: str,
+        shown: Float[ndarray, "T D"] | None = None,
+        nearest: Nearest = element_seen,
     ) -> dict[str, str]:
         """Return by closed level the element of its repertoire that a motion begins with.
 
@@ -107,12 +112,11 @@ class Learner:
         Args:
             motion: What the caregiver calls it.
             shown: What was seen of it, to go by that instead; NaN where nothing was. [T, D]
+            nearest: Which element's own motion is nearest to what was seen.
         """
         scale = self.channels.interval_widths
         return {
-            level: element_called(known, motion)
-            if shown is None
-            else element_seen(known, shown, scale)
+            level: element_called(known, motion) if shown is None else nearest(known, shown, scale)
             for level in self.network.names[1:-1]
             if (known := self.repertoire_of(level))
         }
