@@ -130,3 +130,28 @@ def test_a_stage_s_caregiver_changes_only_what_it_names(tmp_path):
     (stage,) = read_settings(str(file)).development(TD_MD)
     assert stage.manner.motionese.pauses.rows == 8
     assert stage.manner.motionese.slower == 1.5
+
+
+@pytest.mark.parametrize("emphasis", ["pauses", "exaggeration", "slowness", "roundness"])
+def test_an_arm_that_follows_what_is_shown_presses_the_button(emphasis):
+    """The joints are told where the hand was shown, and to hold the places against the button."""
+    study = read_settings(overrides=[f"caregiver.motionese.{emphasis}.strength=1"])
+    scene, manner = Scene(study, seed=3), study.caregiver
+    pair = scene.task.sequence("UR ←↓")
+    path = scene.caregiver(manner).intended(pair)
+    body, begins = scene.body, manner.begins(pair)
+    gaps = {
+        place: scene.postures[place] - body.angles_nearest(scene.task.position(place))
+        for place in pair.places
+    }
+    body.reset(scene.postures[pair.start], np.random.default_rng(0))
+    depth = 0.0
+    for row in range(1, len(path)):
+        stroke = int(np.searchsorted(begins, row, side="right")) - 1
+        rows = manner.stroke_rows(pair.primitives[stroke])
+        share = min((row - begins[stroke]) / rows, 1.0)
+        start, end = (gaps[place] for place in pair.places[stroke : stroke + 2])
+        body.command(body.angles_nearest(path[row]) + (1 - share) * start + share * end)
+        body.step()
+        depth = max(depth, body.effects()["left_button"])
+    assert depth > 2 * scene.task.needed_mm
