@@ -180,6 +180,7 @@ def test_courses_lead_from_full_strength_to_nothing():
         ("fading_loops=[30, 16]", r"from one number ≥ 0 to a larger one, got \[30, 16\]"),
         ("fading_cm=[2.0, 2.0]", r"from one number ≥ 0 to a larger one, got \[2\.0, 2\.0\]"),
         ("fading_cm=[2.0, inf]", r"from one number ≥ 0 to a larger one"),
+        ("fading_loops=[16]", r"fading_loops = \[16\]: it has too few entries"),
     ],
 )
 def test_what_cannot_be_is_refused_in_a_sentence(override, said):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from small_runs import SMALL, left_on_disk
 
+from motionese.errors import SettingError
 from motionese.experiment import Run, condition_named, go_through, read_settings, run
 from motionese.experiment.checkpoint import Checkpoint
 from motionese.experiment.run import _as_shown
@@ -130,6 +131,26 @@ def test_a_stage_s_caregiver_changes_only_what_it_names(tmp_path):
     (stage,) = read_settings(str(file)).development(TD_MD)
     assert stage.manner.motionese.pauses.rows == 8
     assert stage.manner.motionese.slower == 1.5
+
+
+@pytest.mark.parametrize(
+    ("pauses", "said"),
+    [
+        (
+            "pauses = { strength = 2 }",
+            r"stages\.0\.caregiver: setting motionese\.pauses\.strength = 2",
+        ),
+        ("pauzes = { strength = 1 }", r"did you mean 'motionese\.pauses'"),
+    ],
+)
+def test_a_stage_s_motionese_is_checked_when_it_is_read(tmp_path, pauses, said):
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        '[[stages]]\nlesson = "primitives"\nlevels = ["io", "cf"]\nuntil = { loops = 1 }\n'
+        f"caregiver = {{ motionese = {{ {pauses} }} }}\n"
+    )
+    with pytest.raises(SettingError, match=said):
+        read_settings(str(file))
 
 
 @pytest.mark.parametrize("emphasis", ["pauses", "exaggeration", "slowness", "roundness"])

@@ -9,7 +9,7 @@ from motionese.body import open_body
 from motionese.caregiver import Manner, check_reach
 from motionese.errors import MotioneseError, SettingError, unknown
 from motionese.experiment.conditions import Condition, conditions_of
-from motionese.imitation import Group, Settings, Stage, Until
+from motionese.imitation import Group, Settings, Stage, Until, checked
 from motionese.task import Task
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9]+$")]
@@ -140,7 +140,10 @@ class Study(Settings):
             if name not in Manner.model_fields:
                 known = [*Manner.model_fields, *self._choices()]
                 raise SettingError(unknown(f"setting in stages.{number}.caregiver", name, known))
-        return Manner.model_validate(_laid_over(self.caregiver.model_dump(), differing))
+        try:
+            return checked(Manner, _laid_over(self.caregiver.model_dump(), differing))
+        except SettingError as error:
+            raise SettingError(f"stages.{number}.caregiver: {error}") from error
 
     def _choices(self) -> list[str]:
         return [choice for choices in self.factors.values() for choice in choices]

@@ -23,7 +23,7 @@ class Group(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-M = TypeVar("M", bound=Group)
+M = TypeVar("M", bound=BaseModel)
 
 
 class TaskSettings(Group):
@@ -228,7 +228,8 @@ def checked(model: type[M], table: Table) -> M:
                 f"setting {name}.name = '{asked}': input should be {among}"
             ) from error
         if first["type"] == "missing":
-            raise SettingError(f"setting {name} is missing") from error
+            few = f" = {here}: it has too few entries" if isinstance(here, list) else " is missing"
+            raise SettingError(f"setting {name}{few}") from error
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]
