@@ -41,6 +41,7 @@ def test_it_leaves_a_table_of_everything(undisturbed):
         "lesions.csv",
         "decoding.csv",
         "symbols.csv",
+        "boundaries.csv",
         "inside.npz",
         "ended.json",
     }

@@ -144,8 +144,8 @@ def _loop(
 ) -> Checkpoint:
     """Go through the next loop, which belongs to a stage (from 0)."""
     began = time.perf_counter()
-    stage = stages[number]
     loop = before.loop + 1 if before else 1
+    stage = _as_shown(stages, number, loop, before)
     learner = before.learner if before else babbled(scene, newborn(scene, stage.levels))
     while len(learner.network.levels) < stage.levels:
         # The network's own key: a level that opens late gets the weights, times the influence,
@@ -169,6 +169,14 @@ def _loop(
     )
 
 
+def _as_shown(
+    stages: tuple[Stage, ...], number: int, loop: int, before: Checkpoint | None
+) -> Stage:
+    """Return a stage (from 0) as it is shown in a loop, after what the one before has told."""
+    done = _loop_done(before) if before else None
+    return stages[number].at(loop, done.error_cm if done and done.stage == number else None)
+
+
 def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Checkpoint]) -> Row:
     """Write the run's tables; evaluate it if it did not fail."""
     began = time.perf_counter()
@@ -178,6 +186,9 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
         "development.csv": [checkpoint.development for checkpoint in loops],
     }
     if not last.failure:
+        if scene.settings.evaluation.motionese:
+            at_last = _as_shown(stages, len(stages) - 1, last.loop + 1, last)
+            scene = scene.shown_with(at_last.manner.motionese)
         kept = _evaluated(scene, stages, last.learner, tables)
         content = io.BytesIO()
         np.savez_compressed(content, allow_pickle=False, **kept)

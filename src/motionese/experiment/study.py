@@ -1,13 +1,15 @@
 """A study: a robot that imitates, stages of development, and the factors that are varied."""
 
+from collections.abc import Iterable
 from typing import Annotated, Any
 
 from pydantic import Field, field_validator, model_validator
 
-from motionese.caregiver import Manner
+from motionese.body import open_body
+from motionese.caregiver import Manner, check_reach
 from motionese.errors import MotioneseError, SettingError, unknown
 from motionese.experiment.conditions import Condition, conditions_of
-from motionese.imitation import Group, Settings, Stage, Until
+from motionese.imitation import Group, Settings, Stage, Until, checked
 from motionese.task import Task
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9]+$")]
@@ -55,11 +57,21 @@ class Study(Settings):
     @model_validator(mode="after")
     def _stages_can_be_gone_through(self) -> "Study":
         try:
-            for condition in self.conditions:
-                self.development(condition)
+            stages = [stage for each in self.conditions for stage in self.development(each)]
+            emphatic = [s for s in stages if s.manner.motionese.leaves_the_way]
+            if emphatic:
+                self._check_reach(emphatic)
         except MotioneseError as error:
             raise ValueError(str(error)) from error
         return self
+
+    def _check_reach(self, stages: Iterable[Stage]) -> None:
+        """Refuse motionese that no robot can follow, before anything is run."""
+        task = self.task.task()
+        body = open_body(self.body.model_copy(update={"vision": "projection"}), task)
+        shown = {(repr(s.manner), s.lesson): s for s in stages}
+        for stage in shown.values():
+            check_reach(task, stage.manner, body, stage.lesson)
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
@@ -128,7 +140,20 @@ class Study(Settings):
             if name not in Manner.model_fields:
                 known = [*Manner.model_fields, *self._choices()]
                 raise SettingError(unknown(f"setting in stages.{number}.caregiver", name, known))
-        return Manner.model_validate({**self.caregiver.model_dump(), **differing})
+        try:
+            return checked(Manner, _laid_over(self.caregiver.model_dump(), differing))
+        except SettingError as error:
+            raise SettingError(f"stages.{number}.caregiver: {error}") from error
 
     def _choices(self) -> list[str]:
         return [choice for choices in self.factors.values() for choice in choices]
+
+
+def _laid_over(table: dict[str, Any], differing: dict[str, Any]) -> dict[str, Any]:
+    """Return a table with what differs, group by group."""
+    within = {
+        name: _laid_over(table[name], value)
+        for name, value in differing.items()
+        if isinstance(value, dict) and isinstance(table.get(name), dict)
+    }
+    return {**table, **differing, **within}

@@ -6,7 +6,7 @@ settled.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from pydantic import Field
@@ -66,6 +66,10 @@ class Stage:
     levels: int
     manner: Manner
     until: Until
+
+    def at(self, loop: int, error_cm: float | None) -> "Stage":
+        """Return the stage as the caregiver shows its lesson in a loop, see `Motionese.at`."""
+        return replace(self, manner=self.manner.at(loop, error_cm))
 
 
 @dataclass(frozen=True)

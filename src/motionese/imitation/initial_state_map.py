@@ -74,11 +74,11 @@ def slow_map_of(
     settings, level = scene.settings.evaluation, network.levels[-1].name
     axis = np.linspace(-settings.map_range, settings.map_range, settings.map_points)
     grid = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
-    length = scene.settings.caregiver.rows(primitive)
+    length, second = scene.manner.rows(primitive), scene.manner.rows_until_next(primitive)
     states = with_slow_state(network, state, grid)
     firsts = np.repeat(first[None], len(grid), axis=0)
-    seen = scene.body.bearing(generate(network, states, 2 * length, first=firsts))
-    corners = [seen[:, row] for row in (0, length - 1, 2 * length - 1)]
+    seen = scene.body.bearing(generate(network, states, second + length, first=firsts))
+    corners = [seen[:, row] for row in (0, second - 1, second + length - 1)]
     segments = [stroke(begin, end) for begin, end in pairwise(corners)]
     rows = []
     for point, *strokes in zip(grid, *segments, strict=True):
