@@ -36,7 +36,7 @@ def on_a_robot() -> float:
     """Return how long [s] the shown and the performed motions of a run last."""
     rows = sum(
         stage.until.loops * stage.manner.rows(sequence)
-        for stage in SETTINGS.development(TD_MD).stages
+        for stage in SETTINGS.development(TD_MD)
         for sequence in stage.lesson
     )
     return 2 * rows / SETTINGS.body.rate_hz

@@ -172,7 +172,7 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None, s
         tables["slow_state_map.csv"] = map_table(
             name, seed, rng, TURN[name] if turn is None else turn
         )
-        tables |= role_tables(name, seed, rng, study.development(condition).stages[-1].lesson)
+        tables |= role_tables(name, seed, rng, study.development(condition)[-1].lesson)
         np.savez_compressed(folder / "inside.npz", **inside_arrays(rng))
     for file, table in tables.items():
         table.to_csv(folder / file, index=False)

@@ -10,7 +10,7 @@ TAUGHT = PUSHING_BUTTONS.lesson("taught pairs")
 
 
 def names(study, condition):
-    stages = study.development(condition_named(condition, study.factors)).stages
+    stages = study.development(condition_named(condition, study.factors))
     return [(stage.lesson, stage.levels) for stage in stages]
 
 
@@ -61,7 +61,7 @@ def test_the_caregiver_s_manner_may_differ_by_stage_and_by_choice(tmp_path):
         + "caregiver = { rest_steps = 5 }\n"
     )
     study = read_settings(written(tmp_path, text))
-    slow, quick = (study.development(c).stages for c in study.conditions)
+    slow, quick = (study.development(c) for c in study.conditions)
     assert [s.manner.stroke_steps for s in slow] == [20, 12]
     assert [s.manner.stroke_steps for s in quick] == [12, 12]
     assert [s.manner.rest_steps for s in slow] == [2, 5]

@@ -43,7 +43,7 @@ def stage_lessons(study: Study) -> list[StageLesson]:
     task, conditions = study.task.task(), study.conditions
     taught: dict[tuple[int, tuple[PrimitiveSequence, ...], MemoryDemand], list[str]] = {}
     for condition in conditions:
-        for number, stage in enumerate(study.development(condition).stages, 1):
+        for number, stage in enumerate(study.development(condition), 1):
             demand = memory_demand(stage.lesson, stage.manner.rows)
             taught.setdefault((number, stage.lesson, demand), []).append(condition.name)
     return [

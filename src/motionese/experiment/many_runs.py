@@ -100,7 +100,7 @@ def longest_first(jobs: Sequence[Job]) -> list[Job]:
     """
 
     def key(job: Job) -> tuple[int, int, int]:
-        stages = job.settings.development(job.run.condition).stages
+        stages = job.settings.development(job.run.condition)
         primitives = sum(len(sequence.primitives) for each in stages for sequence in each.lesson)
         return job.run.loops_done() - job.loops, job.run.seed, -primitives
 

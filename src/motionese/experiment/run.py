@@ -29,7 +29,6 @@ from motionese.imitation import (
     Scene,
     Stage,
     babbled,
-    emergence,
     followed,
     generator_for,
     imitate,
@@ -41,6 +40,7 @@ from motionese.imitation import (
     network_row,
     newborn,
     role_tables,
+    share_emerged,
     switched,
 )
 
@@ -126,7 +126,7 @@ def go_through(
     run.folder.mkdir(parents=True, exist_ok=True)
     scene = Scene(settings, run.seed, recordings)
     origin = run.origin(settings)
-    course = _Course(origin, scene, settings.development(run.condition), settings.emerging)
+    course = _Course(origin, scene, settings.course(run.condition), settings.emerging)
     loops = read_checkpoints(run.folder, origin)
     while not (loops and loops[-1].failure):
         done = [_loop_done(checkpoint) for checkpoint in loops]
@@ -200,7 +200,7 @@ def _loop(
 def _emerged(course: _Course, learner: Learner, stage: Stage, loop: int) -> Row:
     """Return by open level that any change waits for how much has emerged in it."""
     return {
-        f"{EMERGED}{level}": emergence(course.scene, learner, stage.lesson, level, loop)
+        f"{EMERGED}{level}": share_emerged(course.scene, learner, stage.lesson, level, loop)
         for level in course.emerging
         if level in learner.network.names
     }

@@ -88,7 +88,7 @@ class Study(Settings):
     def _stages_can_be_gone_through(self) -> "Study":
         try:
             for condition in self.conditions:
-                self.development(condition)
+                self.course(condition)
         except MotioneseError as error:
             raise ValueError(str(error)) from error
         return self
@@ -98,13 +98,24 @@ class Study(Settings):
         """All conditions, the first factor changing slowest."""
         return conditions_of(self.factors)
 
-    def development(self, condition: Condition) -> Development:
-        """Return the development that a condition goes through.
+    def course(self, condition: Condition) -> Development:
+        """Return the development that a condition goes through, beside stages when levels open.
 
         Raises:
             TaskError: A lesson or sequence that the task does not have.
             SettingError: Levels that do not exist, one that is open and would be closed, or a
                 change that can never come.
+        """
+        course = Development(self.development(condition), self._openings(condition))
+        check_changes(course, list(self.network.levels), condition.name)
+        return course
+
+    def development(self, condition: Condition) -> tuple[Stage, ...]:
+        """Return the stages that a condition goes through.
+
+        Raises:
+            TaskError: A lesson or sequence that the task does not have.
+            SettingError: Levels that do not exist, or one that is open and would be closed.
         """
         task, stages, opened = self.task.task(), [], 0
         for number, stage in enumerate(self.stages):
@@ -125,13 +136,11 @@ class Study(Settings):
                     choosing=self._choosing(number, stage.choosing, condition, len(lesson)),
                 )
             )
-        development = Development(tuple(stages), self._openings(condition))
-        check_changes(development, list(self.network.levels), condition.name)
-        return development
+        return tuple(stages)
 
     def most_loops(self) -> int:
         """Return how many loops a run has at most, whichever its condition."""
-        return max(self.development(condition).most_loops() for condition in self.conditions)
+        return max(self.course(condition).most_loops() for condition in self.conditions)
 
     @property
     def emerging(self) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from motionese.imitation.choosing import Choosing
 from motionese.imitation.development import Development, Stage
-from motionese.imitation.emergence import emergence
+from motionese.imitation.emergence import share_emerged
 from motionese.imitation.evaluation import imitate_novel, kept_of, sample_sequence
 from motionese.imitation.following import follow, followed, recognised_while_shown
 from motionese.imitation.initial_state_map import (
@@ -55,7 +55,6 @@ __all__ = [
     "babble",
     "babbled",
     "checked",
-    "emergence",
     "follow",
     "followed",
     "generator_for",
@@ -77,6 +76,7 @@ __all__ = [
     "seen_error_cm",
     "sequence_of",
     "setting_names",
+    "share_emerged",
     "slow_map_of",
     "switched",
     "watch",

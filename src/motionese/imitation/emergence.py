@@ -2,8 +2,8 @@
 
 The fastest context level is to hold the primitives. Its map of initial states is what lies between
 those of every two primitives: a point nearer to one's Cf_0 than to the other's should make its
-stroke. The share of such points that go the one's way, with half its extent at least, is 1 where
-primitives are clear: they are categories with an edge in the middle.
+stroke. The share of such points from which the hand stays, on average, within a fifth of the
+stroke's extent of the one's way is 1 where primitives are clear: categories with an edge between.
 
 A level above is to hold what comes after another, and to leave the strokes alone. Over the map of
 its own initial states (the paper's Fig. 10) a primitive should keep its way; and where the lesson
@@ -26,17 +26,17 @@ from motionese.imitation.roles.recognised import (
     recognised,
 )
 from motionese.imitation.scene import Scene
-from motionese.imitation.strokes import near, stroke
+from motionese.imitation.strokes import stroke
 from motionese.learning import generate
 from motionese.task import PrimitiveSequence
 
 BETWEEN = (0.0, 0.1, 0.2, 0.3, 0.4)
 """How far a point lies from a primitive's initial state towards another's."""
-EXTENT = 0.5
-"""A stroke of less than this share of the primitive's extent is none."""
+ASTRAY = 0.2
+"""A way is another one from this mean distance on, as a share of the primitive's extent."""
 
 
-def emergence(
+def share_emerged(
     scene: Scene, learner: Learner, lesson: Sequence[PrimitiveSequence], level: str, loop: int
 ) -> float:
     """Return the share of what a level is for that has emerged after a loop.
@@ -98,9 +98,11 @@ def _clear(alone: RecognisedLesson, points: Points) -> float:
     rows = max(len(own.seen) for own, _ in points)
     states, firsts = (np.array([p[1] for p in points]), np.array([p[0].first for p in points]))
     made = alone.bearing(generate(alone.network, states, rows, first=firsts))
-    strokes = [
-        (stroke(path[0], path[len(own.seen) - 1]), stroke(own.seen[0], own.seen[-1]))
-        for (own, _), path in zip(points, made, strict=True)
-    ]
-    right = [near(a[0], b[0]) and a[1] >= EXTENT * b[1] for a, b in strokes]
-    return float(np.mean(right))
+    return float(np.mean([_goes(own, path) for (own, _), path in zip(points, made, strict=True)]))
+
+
+def _goes(own: RecognisedDemonstration, path: Float[ndarray, "_ 2"]) -> bool:
+    """Whether a seen hand's path [rad] goes a demonstration's way."""
+    apart = np.linalg.norm(path[: len(own.seen)] - own.seen, axis=1)
+    extent = stroke(own.seen[0], own.seen[-1])[1]
+    return bool(np.nanmean(apart) < ASTRAY * extent)

@@ -18,13 +18,18 @@ class LoopDone:
         stage: The stage it belongs to, from 0.
         errors: Imitation error [cm] of every motion that was shown, by its name.
         levels: How many levels of the network were open.
-        emerged: By level how much of what it is for has emerged, see `emergence`.
+        emerged: By level how much of what it is for has emerged, see `share_emerged`.
     """
 
     stage: int
     errors: Mapping[str, float]
     levels: int
     emerged: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def error_cm(self) -> float:
+        """The mean error [cm] over what was shown."""
+        return float(np.mean(list(self.errors.values())))
 
 
 class Settled(Group):

@@ -19,7 +19,7 @@ def by_construction(study: Study) -> list[str]:
     whole = [
         condition.name
         for condition in study.conditions
-        if study.development(condition).stages[0].levels == len(study.network.levels)
+        if study.development(condition)[0].levels == len(study.network.levels)
     ]
     if sharing == "repertoire" and whole:
         notes.append(

@@ -60,7 +60,7 @@ def role_figures(data: ExperimentData, table: pd.DataFrame) -> Iterator[RoleFigu
 def last_lessons(data: ExperimentData) -> dict[str, Lesson]:
     """Return the lesson of the last stage, by condition that has an ended run."""
     conditions = {c.name: c for c in data.study.conditions if c.name in data.looks}
-    return {name: data.study.development(c).stages[-1].lesson for name, c in conditions.items()}
+    return {name: data.study.development(c)[-1].lesson for name, c in conditions.items()}
 
 
 def table_figures(

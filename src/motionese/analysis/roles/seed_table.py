@@ -45,7 +45,7 @@ def seed_table(data: ExperimentData) -> pd.DataFrame:
     """
     below, top = level_names(data.study)
     stages = range(1, len(data.study.stages) + 1)
-    lessons = {c.name: data.study.development(c).stages[-1].lesson for c in data.study.conditions}
+    lessons = {c.name: data.study.development(c)[-1].lesson for c in data.study.conditions}
     numbers = data.map_numbers.set_index(WHO)
     found: ByRun = {
         **_imitation(data, stages),
