@@ -9,7 +9,6 @@ from collections.abc import Sequence
 import pandas as pd
 
 from motionese.analysis.cells import NONE, Table, number
-from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.roles.role_shares import WHO
 from motionese.analysis.statistics import estimate
 from motionese.experiment import Study
@@ -31,7 +30,7 @@ def answers_the_learner(study: Study) -> bool:
     return adaptive or chosen or bool(study.opens)
 
 
-def changes(data: ExperimentData) -> pd.DataFrame:
+def changes(loops: pd.DataFrame, development: pd.DataFrame, study: Study) -> pd.DataFrame:
     """Return a row per run that ended.
 
     Beside `condition` and `seed`: `stage_1_ends` …, after which loop each stage but the last ended;
@@ -41,13 +40,13 @@ def changes(data: ExperimentData) -> pd.DataFrame:
     `emerged_LEVEL` after the last loop, where that was measured.
     """
     rows = []
-    known = data.development.set_index(WHO).sort_index()
-    for (condition, seed), own in data.loops.groupby(WHO, sort=False):
-        row = {"condition": condition, "seed": seed, **_stages(own, len(data.study.stages))}
+    known = development.set_index(WHO).sort_index()
+    for (condition, seed), own in loops.groupby(WHO, sort=False):
+        row = {"condition": condition, "seed": seed, **_stages(own, len(study.stages))}
         grown = known.loc[[(condition, seed)]].sort_values("loop")
-        row |= _openings(grown, list(data.study.network.levels))
+        row |= _openings(grown, list(study.network.levels))
         row |= {"loops": own["loop"].max(), "demonstrations": len(own)}
-        row |= _needed(own, len(data.study.stages))
+        row |= _needed(own, len(study.stages))
         row |= {c: grown[c].iloc[-1] for c in map(str, grown) if c.startswith(EMERGED)}
         rows.append(row)
     return pd.DataFrame(rows)
@@ -95,6 +94,25 @@ def censored(table: pd.DataFrame, column: str, of: str) -> pd.DataFrame:
     """Return a measure by seed and condition; a run that never got there has one more than all."""
     filled = table[column].fillna(table[of] + 1)
     return table.assign(value=filled).pivot(index="seed", columns="condition", values="value")
+
+
+def further_measures(
+    study: Study, by_seed: pd.DataFrame, changed: pd.DataFrame
+) -> dict[str, pd.DataFrame]:
+    """Return by their names what effects are asked of beside errors: loops needed, separation.
+
+    Args:
+        study: The settings of the runs.
+        by_seed: Their measures, as of `seed_table`.
+        changed: When lesson and network changed, as of `changes`.
+    """
+    separation = by_seed.pivot(index="seed", columns="condition", values="separation")
+    tables = {
+        "loops until the last lesson is mastered [loops]": censored(changed, NEEDED, "loops"),
+        "separation of the roles [1]": separation.astype(float),
+    }
+    names = [condition.name for condition in study.conditions]
+    return {name: table.reindex(columns=names) for name, table in tables.items()}
 
 
 def changes_table(table: pd.DataFrame, conditions: Sequence[str]) -> Table:

@@ -26,14 +26,15 @@ def changes_figure(table: pd.DataFrame, looks: Looks) -> Figure:
         },
         NEEDED: "Last lesson mastered",
     }
+    present = {name: look for name, look in looks.items() if name in set(table["condition"])}
     last = int(table["loops"].max())
     figure = Figure(figsize=(WIDTH, 3.0))
     panels = figure.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0]
     for axes, (column, title) in zip(panels, titles.items(), strict=True):
-        for name, look in looks.items():
+        for name, look in present.items():
             values = table.loc[table["condition"] == name, column].to_numpy(dtype=float)
             loops = np.arange(last + 1)
-            share = [100 * float(np.mean(values <= loop)) for loop in loops]
+            share = 100 * (values[:, None] <= loops).mean(axis=0)
             paint = {**look.curve(), "marker": ""}
             axes.step(loops, share, where="post", **paint, label=name)
         axes.set(title=title, xlabel="imitation loop", xlim=(0, last + 0.5), ylim=(-3, 103))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motionese.analysis.cells import listed
-from motionese.analysis.changes import NEEDED, answers_the_learner, censored, changes
+from motionese.analysis.changes import answers_the_learner, changes, further_measures
 from motionese.analysis.effects import effects
 from motionese.analysis.experiment_data import ROLES, collect
 from motionese.analysis.figures import figures
@@ -18,6 +18,7 @@ from motionese.analysis.mochizuki2013 import (
     preset_of,
 )
 from motionese.analysis.page import page
+from motionese.analysis.planned_changes import planned_findings
 from motionese.analysis.roles import seed_table
 from motionese.analysis.seed_measures import Measures, measured
 from motionese.analysis.statistics import check_seeds
@@ -58,19 +59,14 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     study = data.study
     numbers, by_seed = data.map_numbers, seed_table(data)
     measures = measured(data, numbers)
-    changed = changes(data) if answers_the_learner(study) else None
-    further = {}
-    if changed is not None:
-        further["loops until the last lesson is mastered [loops]"] = censored(
-            changed, NEEDED, "loops"
-        )
-        further["separation of the roles [1]"] = by_seed.pivot(
-            index="seed", columns="condition", values="separation"
-        )
+    changed = changes(data.loops, data.development, study) if answers_the_learner(study) else None
+    further = {} if changed is None else further_measures(study, by_seed, changed)
     found = effects(measures, study.factors, further)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
     planned = {preset: by_seed} if results and (preset := preset_of(study)) else {}
     tested, sentences = findings(planned), answer(planned)
+    if changed is not None:
+        tested += planned_findings(study, by_seed, changed)
     tables = {"loops": data.loops, "development": data.development, **data.novel}
     tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
     tables |= {"online": data.online, "switches": data.switches}
