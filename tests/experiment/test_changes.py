@@ -4,7 +4,7 @@ import pytest
 from small_runs import SMALL, left_on_disk, stopped_after
 
 from motionese.errors import SettingError
-from motionese.experiment import Run, condition_named, go_through, read_settings
+from motionese.experiment import Run, condition_named, read_settings
 from motionese.experiment.checkpoint import read_checkpoints
 from motionese.experiment.learned_robot import robot_of
 from motionese.experiment.run_folder import open_run_folder
@@ -149,7 +149,7 @@ def test_change_after_so_many_loops_is_that_of_stages_to_the_bit(tmp_path):
     left = []
     for study, name in ((beside, "TF/MF"), (by_stage, "TD/MD")):
         run = Run(condition_named(name, study.factors), 5, tmp_path / name.replace("/", "-"))
-        go_through(run, study, lambda loop: None)
+        stopped_after(run, study, 3)
         left.append(left_on_disk(run.folder))
     assert left[0].keys() == left[1].keys()
     for loop in (1, 2, 3):
@@ -163,7 +163,7 @@ def test_a_robot_whose_fourth_level_opened_is_taught_on(tmp_path):
     study = read_settings("four_levels", [*SMALL, *loops], quick=True)
     with open_run_folder(tmp_path / "four", study, "four_levels") as folder:
         run = folder.run(study.conditions[0], 5)
-        assert go_through(run, study, lambda loop: None)["status"] == "finished"
+        stopped_after(run, study, 3)
     robot = robot_of(tmp_path / "four")
     assert robot.learner.network.names == ("io", "cf", "cs", "ct")
     assert {e.level for e in robot.learner.elements} == {"cf", "cs"}
