@@ -85,18 +85,18 @@ def findings(tables: Tables) -> list[Finding]:
     """Return what the runs say to every test of the plan whose tables there are."""
     found: list[Finding] = []
     for family, tests in groupby(_planned(tables), lambda test: test.family):
-        of_family = tested(list(tests))
+        answered = tested(list(tests))
         if family == SEPARATION:
             lengths = _by_seed(tables[ORDER], "separation")[TD_MD]
             text = f"Only {TD_MD} separates the roles"
             found.append(
-                _together(text, lengths, CLEAR, [t for t in of_family if t.against != FREE])
+                _together(text, lengths, CLEAR, [t for t in answered if t.against != FREE])
             )
         if family == MAP:
             lengths = _by_seed(tables[DEFAULT], "map_length_1")[TD_MD]
             text = f"With Cf₀ held, the direction is the same over the Cs₀ map in {TD_MD} only"
-            found.append(_together(text, lengths, SAME, of_family))
-        found += of_family
+            found.append(_together(text, lengths, SAME, answered))
+        found += answered
     return found
 
 
