@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from small_runs import SMALL, left_on_disk
+from small_runs import SMALL, left_on_disk, stopped_after
 
 from motionese.errors import SettingError
 from motionese.experiment import Run, condition_named, go_through, read_settings, run
-from motionese.experiment.checkpoint import Checkpoint
 from motionese.experiment.run import _as_shown
-from motionese.imitation import Scene, newborn
+from motionese.imitation import LoopDone, Scene
 
 LOOPS_ALONE = (*SMALL, "stages.1.lesson=branching", "training.epochs=3")
 NOTHING = (
@@ -33,10 +32,6 @@ FADING = (
 TD_MD = condition_named("TD/MD", read_settings().factors)
 
 
-class StoppedError(Exception):
-    pass
-
-
 @pytest.fixture
 def loops_of(tmp_path, monkeypatch):
     """What the loops of a run leave on disk; nothing is evaluated after them."""
@@ -45,14 +40,8 @@ def loops_of(tmp_path, monkeypatch):
     def gone_through(*overrides, stops=()):
         folder = tmp_path / str(len(list(tmp_path.iterdir())))
         settings = read_settings(overrides=[*LOOPS_ALONE, *overrides], quick=True)
-
-        def told(loop):
-            if loop in stops:
-                raise StoppedError
-
-        for _ in stops:
-            with pytest.raises(StoppedError):
-                go_through(Run(TD_MD, 5, folder), settings, told)
+        for loop in stops:
+            stopped_after(Run(TD_MD, 5, folder), settings, loop)
         go_through(Run(TD_MD, 5, folder), settings, lambda loop: None)
         return left_on_disk(folder)
 
@@ -86,12 +75,12 @@ def test_fading_goes_on_with_the_same_bits_after_every_stop(loops_of):
 
 def test_what_is_shown_follows_from_the_loops_before_alone():
     study = read_settings(overrides=FADING)
-    stages, learner = study.development(TD_MD), newborn(Scene(study, seed=3), 2)
+    stages = study.development(TD_MD)
 
     def shown(loop, stage, before_stage, error):
-        rows = [{"phase": before_stage + 1, "imitation_error_cm": error + off} for off in (-1, 1)]
-        before = Checkpoint("", loop - 1, learner, rows, {}, "", 0.0) if loop > 1 else None
-        return _as_shown(stages, stage, loop, before).manner.motionese
+        errors = {"UR ↓": error - 1, "LR ↑": error + 1}
+        before = [LoopDone(before_stage, errors, levels=2)] * (loop - 1)
+        return _as_shown(stages, stage, before).manner.motionese
 
     assert [shown(loop, 0, 0, 9.0).pauses.rows for loop in (1, 2, 3, 4)] == [4, 4, 2, 0]
     left = [

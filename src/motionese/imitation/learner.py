@@ -59,6 +59,7 @@ class Experience:
             NaN before. [D]
         begins_with: By level below the top one: the element of its repertoire that it begins with.
             Itself where that is not told: it was made while the level was the top one.
+        begins: The rows at which its primitives began as it was shown; one where that is not told.
     """
 
     loop: int
@@ -67,6 +68,7 @@ class Experience:
     initial_state: Float[ndarray, " N"]
     error: Float[ndarray, " D"]
     begins_with: Mapping[str, str] = field(default_factory=dict)
+    begins: tuple[int, ...] = (0,)
 
     @property
     def name(self) -> str:
@@ -93,10 +95,11 @@ class Learner:
         values: Float[ndarray, "T D"],
         state: Float[ndarray, " N"],
         begins_with: Mapping[str, str] | None = None,
+        begins: tuple[int, ...] = (0,),
     ) -> "Learner":
         """Return the learner with a further experience."""
         unknown = np.full(values.shape[1], np.nan)
-        fresh = Experience(loop, motion, values, state, unknown, begins_with or {})
+        fresh = Experience(loop, motion, values, state, unknown, begins_with or {}, begins)
         return replace(self, experiences=(*self.experiences, fresh))
 
     def begins_with(
@@ -347,7 +350,7 @@ def write_learner(path: Path, learner: Learner, rate_hz: float, facts: dict[str,
     """Write a learner as a fit, with its experiences and JSON-able facts, whole or not at all."""
     told = {
         "experiences": [
-            {"loop": e.loop, "motion": e.motion, "begins_with": e.begins_with}
+            {"loop": e.loop, "motion": e.motion, "begins_with": e.begins_with, "begins": e.begins}
             for e in learner.experiences
         ],
         "elements": [{"level": e.level, "motion": e.motion} for e in learner.elements],
@@ -367,7 +370,12 @@ def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
     learned = zip(fit.initial_states, fit.closed_loop_error, strict=True)
     try:
         experiences = tuple(
-            Experience(values=arrays[f"values.{i}"], initial_state=state, error=error, **each)
+            Experience(
+                values=arrays[f"values.{i}"],
+                initial_state=state,
+                error=error,
+                **{**each, "begins": tuple(each.get("begins", (0,)))},
+            )
             for i, (each, (state, error)) in enumerate(
                 zip(facts.pop("experiences"), learned, strict=True)
             )

@@ -115,7 +115,8 @@ def imitation_loop(
         name, state = each.sequence.name, each.found.initial_state
         seen = None if grouping == "labels" else scene.seen(each.watched)
         begins_with = learner.begins_with(name, seen, nearest)
-        learner = learner.experiencing(loop, name, values, state, begins_with)
+        begins = each.watched.begins
+        learner = learner.experiencing(loop, name, values, state, begins_with, begins)
     learner = learner.remembering(loop, settings.imitation.memory, rehearsed)
     learner, fit = learner.trained(  # step 4
         settings.training,
