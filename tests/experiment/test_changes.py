@@ -128,6 +128,7 @@ def adaptive():
     return read_settings("adaptive", ADAPTIVE, quick=True)
 
 
+@pytest.mark.slow
 def test_an_adaptive_run_stopped_after_every_loop_goes_on_to_the_same_bits(tmp_path, adaptive):
     condition = adaptive.conditions[-1]
     undisturbed, run = (Run(condition, 5, tmp_path / name) for name in ("whole", "stopped"))
