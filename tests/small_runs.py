@@ -40,6 +40,21 @@ def undisturbed(tmp_path_factory, small_settings):
     return left_on_disk(run.folder)
 
 
+class StoppedError(Exception):
+    """A run was stopped."""
+
+
+def stopped_after(run, settings, loop):
+    """Go through a run until after a loop."""
+
+    def told(done):
+        if done == loop:
+            raise StoppedError
+
+    with pytest.raises(StoppedError):
+        go_through(run, settings, told)
+
+
 def left_on_disk(folder: Path) -> dict[str, object]:
     """Everything a run wrote, by file, but for the seconds it took and the size of its files."""
     return {

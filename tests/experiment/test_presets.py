@@ -19,7 +19,8 @@ def test_the_default_preset_gives_every_setting():
         path
         for path, _ in flat(dumped)
         if path.startswith(("evaluation.recognition.", "evaluation.repertoire."))
-        or path.endswith((".caregiver", ".settled"))
+        or path.endswith((".caregiver", ".in_all", ".least", ".settled", ".mastered", ".emerged"))
+        or path.startswith(("opens", "stages.0.choosing.", "stages.1.choosing."))
     }
     assert {path for path, _ in flat(dumped)} - given - optional == set()
 

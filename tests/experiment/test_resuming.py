@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_runs import SMALL, left_on_disk
+from small_runs import SMALL, left_on_disk, stopped_after
 
 from motionese.body import open_body
 from motionese.caregiver import ScriptedCaregiver
@@ -11,19 +11,6 @@ from motionese.experiment import Run, condition_named, go_through, read_settings
 from motionese.task import PUSHING_BUTTONS
 
 TD_MD = condition_named("TD/MD", read_settings().factors)
-
-
-class StoppedError(Exception):
-    pass
-
-
-def stopped_after(run, small_settings, loop):
-    def told(done):
-        if done == loop:
-            raise StoppedError
-
-    with pytest.raises(StoppedError):
-        go_through(run, small_settings, told)
 
 
 def test_it_leaves_a_table_of_everything(undisturbed):
@@ -41,6 +28,7 @@ def test_it_leaves_a_table_of_everything(undisturbed):
         "lesions.csv",
         "decoding.csv",
         "symbols.csv",
+        "boundaries.csv",
         "inside.npz",
         "ended.json",
     }

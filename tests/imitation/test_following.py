@@ -1,5 +1,7 @@
 """The robot follows a demonstration while it is shown, and notices when it turns."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,8 +43,10 @@ def learner(scene):
     learner = newborn(scene, 2)
     settings = scene.settings.training.model_copy(update={"epochs": 2000, "noise": {}})
     for sequence in PAIRS:
-        values = scene.as_own(sequence.start, scene.show(sequence, "learned"))
-        learner = learner.experiencing(1, sequence.name, values, np.zeros(learner.network.size))
+        watched = scene.show(sequence, "learned")
+        values, state = scene.as_own(sequence.start, watched), np.zeros(learner.network.size)
+        begins = watched.begins
+        learner = learner.experiencing(1, sequence.name, values, state, begins=begins)
     return learner.trained(settings, scene.body.rate_hz)[0]
 
 
@@ -94,6 +98,14 @@ def test_turns_are_noticed_and_are_the_same_again(scene, learner):
         assert turn.first != turn.second and 0 < turn.row < len(turn.results)
         assert turn.kept()["switch"][0] == turn.row
     assert sum(t.steps is not None and t.steps <= 8 for t in turns) >= 3
+
+
+def test_a_turn_is_noticed_by_the_rows_in_which_motions_were_learned(scene, learner):
+    later = [replace(e, begins=(0, 999)) for e in learner.experiences]  # no second stroke in sight
+    turns = switched(scene, learner, PAIRS, 4)
+    untold = switched(scene, replace(learner, experiences=tuple(later)), PAIRS, 4)
+    assert [turn.row for turn in untold] == [turn.row for turn in turns]
+    assert [turn.steps for turn in untold] != [turn.steps for turn in turns]
 
 
 def test_without_another_sequence_nothing_turns(scene, learner):

@@ -238,9 +238,10 @@ def test_a_learner_is_written_as_a_fit(scene, looped, tmp_path):
     assert facts == {"loop": 1}
     assert np.array_equal(again.network.weights, learner.network.weights)
     for one, other in zip(learner.experiences, again.experiences, strict=True):
-        assert (one.loop, one.motion) == (other.loop, other.motion)
+        assert (one.loop, one.motion, one.begins) == (other.loop, other.motion, other.begins)
         assert np.array_equal(one.values, other.values)
         assert np.array_equal(one.initial_state, other.initial_state)
+    assert any(len(each.begins) > 1 for each in again.experiences)
     fit = mo.load(path)
     assert fit.names == tuple(e.name for e in learner.experiences)
     assert fit.network.channels == scene.body.channels and fit.rate_hz == scene.body.rate_hz

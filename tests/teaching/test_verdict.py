@@ -1,8 +1,8 @@
 """The verdict: what was seen and whether it can be done, in words, and the advice."""
 
-import numpy as np
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from motionese.caregiver import SOMETHING_ELSE, intended_way

@@ -13,8 +13,14 @@ from motionese.errors import TooFewSeedsError
 COLUMNS = ["effect", "measured", "statistic", "low", "high", "p", "effect_size", "seeds"]
 
 
-def effects(measures: Measures, factors: Mapping[str, tuple[str, ...]]) -> pd.DataFrame:
+def effects(
+    measures: Measures,
+    factors: Mapping[str, tuple[str, ...]],
+    further: Mapping[str, pd.DataFrame] | None = None,
+) -> pd.DataFrame:
     """Return a row per effect and measure: the mean difference over seeds, its interval and test.
+
+    `further` are measures beside those of all studies, by what they are called.
 
     A main effect is the mean over the conditions with a factor's second choice minus that over
     those with its first; an interaction of two factors half the difference of such effects. Only
@@ -24,6 +30,7 @@ def effects(measures: Measures, factors: Mapping[str, tuple[str, ...]]) -> pd.Da
     tables |= measures.achieved
     tables["error on new sequences, trained [cm]"] = measures.trained_error
     tables["error on new sequences, untrained [cm]"] = measures.untrained_error
+    tables |= further or {}
     rows = []
     for what, table in tables.items():
         complete = table.dropna()

@@ -8,6 +8,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from numpy import ndarray
 
+from motionese.analysis.changes_figure import changes_figure
 from motionese.analysis.curves import along_stages, error_sources, learning_curves, success
 from motionese.analysis.experiment_data import ExperimentData
 from motionese.analysis.film import film
@@ -38,13 +39,26 @@ class Shown(NamedTuple):
     drawing: Drawing
 
 
-def figures(data: ExperimentData, measures: Measures, by_seed: pd.DataFrame) -> Iterator[Shown]:
+def figures(
+    data: ExperimentData,
+    measures: Measures,
+    by_seed: pd.DataFrame,
+    changed: pd.DataFrame | None = None,
+) -> Iterator[Shown]:
     """Draw all figures that the runs allow, one after the other.
 
-    `by_seed` has the measures of every run in one table, as of `seed_table`.
+    `by_seed` has the measures of every run in one table, as of `seed_table`; `changed`, as of
+    `changes`, when lesson and network changed, where that answers the learner.
     """
     with rc_context(SETTINGS):
         roles = [_shown(n, "roles", said, f) for n, said, f in role_figures(data, by_seed)]
+        if changed is not None:
+            said = (
+                "When lesson and network changed: the share of runs in which each change had come "
+                "after so many loops, and in which the last lesson had been mastered (below 2 cm "
+                "for three loops in a row)."
+            )
+            roles.append(_shown("changes", "changes", said, changes_figure(changed, data.looks)))
     yield from roles
     for draw in (_over_loops, _of_new_sequences, _while_shown, _of_the_map, _of_the_inside):
         with rc_context(SETTINGS):

@@ -7,6 +7,7 @@ import pandas as pd
 from markupsafe import Markup
 
 from motionese.analysis import mochizuki2013, page_tables
+from motionese.analysis.changes import changes_table
 from motionese.analysis.experiment_data import ROLES, ExperimentData
 from motionese.analysis.facts import flat
 from motionese.analysis.figures import Shown
@@ -27,6 +28,7 @@ def page(
     measures: Measures,
     by_seed: pd.DataFrame,
     effects: pd.DataFrame,
+    changed: pd.DataFrame | None,
     results: Sequence[Judgement],
     findings: Sequence[Finding],
     sentences: Sequence[str],
@@ -35,7 +37,8 @@ def page(
 ) -> str:
     """Return the page as HTML.
 
-    `by_seed` has the measures of every run in one table, as of `seed_table`. A study of another
+    `by_seed` has the measures of every run in one table, as of `seed_table`; `changed` when lesson
+    and network changed, as of `changes`, where that answers the learner. A study of another
     design than the paper's has no `results`; one of other settings than those planned has no
     `findings`, and no `sentences` that answer the question from them. `too_few` is why tests could
     not be made, or "".
@@ -49,7 +52,7 @@ def page(
     departures = groupby(mochizuki2013.departures() if results else (), lambda d: d.heading)
     tables = ["loops", *data.novel, "online", "switches", "slow_state_map", "map_numbers"]
     tables += [*ROLES, "measures"]
-    tables += ["development", "effects"]
+    tables += ["development", "effects"] + ["changes"] * (changed is not None)
     tables += ["claims"] * bool(results) + ["findings"] * bool(findings) + ["runs"]
     shown: dict[str, list[tuple[str, str, Markup]]] = {}
     for f in figures:
@@ -69,6 +72,7 @@ def page(
         too_few=too_few,
         last_loops=LAST_LOOPS,
         effects=page_tables.effects_rows(effects),
+        changes=None if changed is None else changes_table(changed, list(data.looks)),
         lessons=page_tables.lessons_table(data.study),
         errors=page_tables.errors_table(measures, data),
         online=page_tables.online_table(data),

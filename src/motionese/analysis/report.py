@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motionese.analysis.cells import listed
+from motionese.analysis.changes import answers_the_learner, changes, further_measures
 from motionese.analysis.effects import effects
 from motionese.analysis.experiment_data import ROLES, collect
 from motionese.analysis.figures import figures
@@ -17,6 +18,7 @@ from motionese.analysis.mochizuki2013 import (
     preset_of,
 )
 from motionese.analysis.page import page
+from motionese.analysis.planned_changes import planned_findings
 from motionese.analysis.roles import seed_table
 from motionese.analysis.seed_measures import Measures, measured
 from motionese.analysis.statistics import check_seeds
@@ -57,15 +59,20 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     study = data.study
     numbers, by_seed = data.map_numbers, seed_table(data)
     measures = measured(data, numbers)
-    found = effects(measures, study.factors)
+    changed = changes(data.loops, data.development, study) if answers_the_learner(study) else None
+    further = {} if changed is None else further_measures(study, by_seed, changed)
+    found = effects(measures, study.factors, further)
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
     planned = {preset: by_seed} if results and (preset := preset_of(study)) else {}
     tested, sentences = findings(planned), answer(planned)
+    if changed is not None:
+        tested += planned_findings(study, by_seed, changed)
     tables = {"loops": data.loops, "development": data.development, **data.novel}
     tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
     tables |= {"online": data.online, "switches": data.switches}
     tables |= {name: getattr(data, name) for name in ROLES} | {"measures": by_seed}
     tables |= {"runs": data.runs, "effects": found}
+    tables |= {"changes": changed} if changed is not None else {}
     tables |= {"claims": claims_table(results)} if results else {}
     tables |= {"findings": findings_table(tested)} if tested else {}
     try:
@@ -74,14 +81,16 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
             write_whole(run_folder / f"{name}.csv", text)
         drawn = []
         (run_folder / "figures").mkdir(exist_ok=True)
-        for each in figures(data, measures, by_seed):
+        for each in figures(data, measures, by_seed, changed):
             tell(f"figure {each.name}")
             write_whole(run_folder / "figures" / f"{each.name}.svg", each.drawing.svg)
             write_whole(run_folder / "figures" / f"{each.name}.png", each.drawing.png)
             drawn.append(each)
         too_few = _too_few(measures, list(data.looks))
         path = run_folder / REPORT
-        text = page(data, measures, by_seed, found, results, tested, sentences, drawn, too_few)
+        text = page(
+            data, measures, by_seed, found, changed, results, tested, sentences, drawn, too_few
+        )
         write_whole(path, text)
     except OSError as error:
         raise RunFolderError(

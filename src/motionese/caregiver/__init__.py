@@ -2,6 +2,7 @@
 
 from motionese.caregiver.demonstration import Caregiver, Demonstration
 from motionese.caregiver.hypotheses import SOMETHING_ELSE, hypotheses, sequence_in
+from motionese.caregiver.motionese import Motionese
 from motionese.caregiver.recorded_caregiver import (
     DEMONSTRATIONS,
     Recorded,
@@ -9,7 +10,7 @@ from motionese.caregiver.recorded_caregiver import (
     read_recorded,
     recording_of,
 )
-from motionese.caregiver.scripted_caregiver import Manner, ScriptedCaregiver
+from motionese.caregiver.scripted_caregiver import Manner, ScriptedCaregiver, check_reach
 from motionese.caregiver.segmentation import rows_of_places, segmented
 from motionese.caregiver.tempo import lasting, moving
 from motionese.caregiver.ways import evenly_along, intended_way, stroke_length
@@ -20,9 +21,11 @@ __all__ = [
     "Caregiver",
     "Demonstration",
     "Manner",
+    "Motionese",
     "Recorded",
     "RecordedCaregiver",
     "ScriptedCaregiver",
+    "check_reach",
     "evenly_along",
     "hypotheses",
     "intended_way",

@@ -102,7 +102,7 @@ def read_recorded(path: Path, task: Task, manner: Manner, body: SimulatedRobot) 
         except TaskError as error:
             skipped.append(f"'{episode.name}' {error}")
             continue
-        shown = lasting(hand, manner.rows(sequence))
+        shown = lasting(hand, manner.to_adults().rows(sequence))
         recordings.setdefault(sequence.name, []).append(segmented(shown, sequence, task))
         digest.update(sequence.name.encode() + shown.tobytes())
     if not recordings:

@@ -44,7 +44,7 @@ def stage_lessons(study: Study) -> list[StageLesson]:
     taught: dict[tuple[int, tuple[PrimitiveSequence, ...], MemoryDemand], list[str]] = {}
     for condition in conditions:
         for number, stage in enumerate(study.development(condition), 1):
-            demand = memory_demand(stage.lesson, stage.manner.rows)
+            demand = memory_demand(stage.lesson, stage.manner.rows_until_next)
             taught.setdefault((number, stage.lesson, demand), []).append(condition.name)
     return [
         StageLesson(

@@ -10,7 +10,7 @@ import io
 import json
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,7 @@ from motionese.experiment.conditions import Condition
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 from motionese.imitation import (
+    Development,
     Learner,
     LoopDone,
     Recordings,
@@ -29,6 +30,7 @@ from motionese.imitation import (
     Stage,
     babbled,
     followed,
+    generator_for,
     imitate,
     imitate_novel,
     imitation_loop,
@@ -37,12 +39,14 @@ from motionese.imitation import (
     map_slow_states,
     network_row,
     newborn,
-    next_stage,
     role_tables,
+    share_emerged,
     switched,
 )
 
 ENDED = "ended.json"
+EMERGED = "emerged_"
+"""Columns of `development.csv` begin so that tell how much has emerged in a level."""
 
 
 @dataclass(frozen=True)
@@ -121,52 +125,91 @@ def go_through(
         return ended
     run.folder.mkdir(parents=True, exist_ok=True)
     scene = Scene(settings, run.seed, recordings)
-    stages = settings.development(run.condition)
     origin = run.origin(settings)
+    course = _Course(origin, scene, settings.course(run.condition), settings.emerging)
     loops = read_checkpoints(run.folder, origin)
     while not (loops and loops[-1].failure):
-        stage = next_stage(stages, [_loop_done(checkpoint) for checkpoint in loops])
+        done = [_loop_done(checkpoint) for checkpoint in loops]
+        stage = course.development.next_stage(done)
         if stage is None:
             break
-        loops.append(_loop(origin, scene, stages, stage, loops[-1] if loops else None))
+        loops.append(_loop(course, stage, done, loops[-1] if loops else None))
         write_checkpoint(run.folder, loops[-1], scene.body.rate_hz)
         loop_done(loops[-1].loop)
-    return _finish(run, scene, stages, loops)
+    return _finish(run, scene, course.development.stages, loops)
+
+
+@dataclass(frozen=True)
+class _Course:
+    """What a run goes through, the mark of its checkpoints, and what is looked at on the way."""
+
+    origin: str
+    scene: Scene
+    development: Development
+    emerging: tuple[str, ...]
 
 
 def _loop_done(checkpoint: Checkpoint) -> LoopDone:
-    errors = [row["imitation_error_cm"] for row in checkpoint.rows]
-    return LoopDone(checkpoint.rows[0]["phase"] - 1, float(np.mean(errors)))
+    rows, network = checkpoint.rows, checkpoint.development
+    return LoopDone(
+        stage=rows[0]["phase"] - 1,
+        errors={row["motion"]: row["imitation_error_cm"] for row in rows},
+        levels=network["levels"],
+        emerged={
+            name.removeprefix(EMERGED): share
+            for name, share in network.items()
+            if name.startswith(EMERGED)
+        },
+    )
 
 
 def _loop(
-    origin: str, scene: Scene, stages: tuple[Stage, ...], number: int, before: Checkpoint | None
+    course: _Course, number: int, done: Sequence[LoopDone], before: Checkpoint | None
 ) -> Checkpoint:
     """Go through the next loop, which belongs to a stage (from 0)."""
     began = time.perf_counter()
-    stage = stages[number]
-    loop = before.loop + 1 if before else 1
-    learner = before.learner if before else babbled(scene, newborn(scene, stage.levels))
-    while len(learner.network.levels) < stage.levels:
+    scene, stages = course.scene, course.development.stages
+    stage, loop = _as_shown(stages, number, done), len(done) + 1
+    levels = course.development.next_levels(number, done)
+    learner = before.learner if before else babbled(scene, newborn(scene, levels))
+    while len(learner.network.levels) < levels:
         # The network's own key: a level that opens late gets the weights, times the influence,
         # that the same seed gives it in a network that has it from the start.
         learner = learner.grown(scene.settings.network, key_for(scene.seed, "network"))
     opened = {f"{k}_at_opening": v for k, v in network_row(learner).items() if k.startswith("rms")}
     known = {k: v for k, v in before.development.items() if k in opened} if before else {}
     acting = scene.settings.imitation
-    earlier = {s.name for each in stages[:number] for s in each.lesson}
+    rehearsed = {s.name for each in stages[:number] for s in each.lesson if acting.rehearsal}
+    if stage.choosing.shown:  # what is not chosen is not forgotten
+        rehearsed |= {sequence.name for sequence in stage.lesson}
     memory = acting.memory * max(len(each.lesson) for each in stages)
-    rehearsed = earlier if acting.rehearsal else ()
-    learner, rows, grown, status = imitation_loop(scene, learner, stage, loop, memory, rehearsed)
+    rng = generator_for(scene.seed, "choice", loop)
+    shown = replace(stage, lesson=stage.choosing.chosen(stage.lesson, done, rng))
+    learner, rows, grown, status = imitation_loop(scene, learner, shown, loop, memory, rehearsed)
     return Checkpoint(
-        origin=origin,
+        origin=course.origin,
         loop=loop,
         learner=learner,
         rows=[{"loop": loop, "phase": number + 1, **row} for row in rows],
-        development={**grown, **opened, **known},
+        development={**grown, **opened, **known, **_emerged(course, learner, stage, loop)},
         failure=f"loop {loop}: {status}" if status.failed else "",
         seconds=(before.seconds if before else 0.0) + time.perf_counter() - began,
     )
+
+
+def _as_shown(stages: Sequence[Stage], number: int, done: Sequence[LoopDone]) -> Stage:
+    """Return a stage (from 0) as it is shown in the next loop, after what those done have told."""
+    now = done[-1].error_cm if done and done[-1].stage == number else None
+    return stages[number].at(len(done) + 1, now)
+
+
+def _emerged(course: _Course, learner: Learner, stage: Stage, loop: int) -> Row:
+    """Return by open level that any change waits for how much has emerged in it."""
+    return {
+        f"{EMERGED}{level}": share_emerged(course.scene, learner, stage.lesson, level, loop)
+        for level in course.emerging
+        if level in learner.network.names
+    }
 
 
 def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Checkpoint]) -> Row:
@@ -178,6 +221,10 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
         "development.csv": [checkpoint.development for checkpoint in loops],
     }
     if not last.failure:
+        if scene.settings.evaluation.motionese:
+            done = [_loop_done(checkpoint) for checkpoint in loops]
+            at_last = _as_shown(stages, len(stages) - 1, done)
+            scene = scene.shown_with(at_last.manner.motionese)
         kept = _evaluated(scene, stages, last.learner, tables)
         content = io.BytesIO()
         np.savez_compressed(content, allow_pickle=False, **kept)
@@ -216,7 +263,9 @@ def _evaluated(
         for known, imitated in shown.items()
         for row in followed(scene, learner, imitated)
     ]
-    switches = switched(scene, learner, lesson, settings.evaluation.online.switches)
+    known = {experience.motion for experience in learner.experiences}  # what was chosen to be shown
+    turns = [sequence for sequence in lesson if sequence.name in known]
+    switches = switched(scene, learner, turns, settings.evaluation.online.switches)
     tables["switches.csv"] = [each.measures() for each in switches]
     return kept | (switches[0].kept() if switches else {})
 

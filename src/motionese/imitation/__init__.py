@@ -1,6 +1,8 @@
 """Imitation: a scene, performances, a learner, the loop, its development and its measures."""
 
-from motionese.imitation.development import LoopDone, Settled, Stage, Until, next_stage
+from motionese.imitation.choosing import Choosing
+from motionese.imitation.development import Development, Stage
+from motionese.imitation.emergence import share_emerged
 from motionese.imitation.evaluation import imitate_novel, kept_of, sample_sequence
 from motionese.imitation.following import follow, followed, recognised_while_shown
 from motionese.imitation.initial_state_map import (
@@ -21,6 +23,7 @@ from motionese.imitation.learner import (
 from motionese.imitation.loop import Imitation, Row, imitate, imitation_loop, network_row
 from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.imitation.performance import Performance, Trial, Watched, babble, perform, watch
+from motionese.imitation.readiness import Emerged, LoopDone, Mastered, Settled, Until
 from motionese.imitation.roles.tables import role_tables
 from motionese.imitation.scene import Recordings, Scene
 from motionese.imitation.settings import Group, Settings, checked, setting_names
@@ -28,11 +31,15 @@ from motionese.imitation.switching import Switch, sequence_of, switched
 
 __all__ = [
     "BABBLING",
+    "Choosing",
+    "Development",
+    "Emerged",
     "Experience",
     "Group",
     "Imitation",
     "Learner",
     "LoopDone",
+    "Mastered",
     "Performance",
     "Recordings",
     "Row",
@@ -59,7 +66,6 @@ __all__ = [
     "map_slow_states",
     "network_row",
     "newborn",
-    "next_stage",
     "path_error_cm",
     "perform",
     "read_learner",
@@ -69,6 +75,7 @@ __all__ = [
     "seen_error_cm",
     "sequence_of",
     "setting_names",
+    "share_emerged",
     "strokes_from",
     "switched",
     "watch",

@@ -1,54 +1,19 @@
-"""Development in stages: what is taught, which levels are open, and when a stage ends.
+"""Development: what is taught in which stage, which levels are open, and when either changes.
 
-Which stage comes next follows from the loops so far, and from nothing else: a run that was stopped
-goes on from what it has written, to the same bits, also where a stage ends when learning has
-settled.
+What comes next follows from the loops so far, and from nothing else: a run that was stopped goes on
+from what it has written, to the same bits, also where a change waits until the learner is ready.
+Lesson and network change by clocks of their own: a stage ends, and a further level opens, after so
+many loops or when the learner is ready for it.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
-import numpy as np
-from pydantic import Field
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import takewhile
 
 from motionese.caregiver import Manner
-from motionese.imitation.settings import Group
+from motionese.imitation.choosing import Choosing
+from motionese.imitation.readiness import LoopDone, Until
 from motionese.task import PrimitiveSequence
-
-
-class Settled(Group):
-    """When learning has settled: the last errors are small, or hardly smaller than those before.
-
-    Attributes:
-        loops: So many last loops are looked at, and compared with so many before them.
-        below_cm: All of the last ones are below this imitation error [cm], or …
-        share: … their mean is larger than this share of the mean of those before.
-    """
-
-    loops: int = Field(default=3, ge=1)
-    below_cm: float = Field(default=2.0, ge=0)
-    share: float = Field(default=0.8, gt=0, le=1)
-
-    def by(self, errors_cm: Sequence[float]) -> bool:
-        """Whether learning has settled by these errors, one a loop."""
-        last, before = errors_cm[-self.loops :], errors_cm[-2 * self.loops : -self.loops]
-        if len(last) < self.loops:
-            return False
-        if max(last) < self.below_cm:
-            return True
-        return len(before) == self.loops and bool(np.mean(last) > self.share * np.mean(before))
-
-
-class Until(Group):
-    """When a stage ends: after so many loops, or earlier when learning has settled."""
-
-    loops: int = Field(ge=1)
-    settled: Settled | None = None
-
-    def over(self, errors_cm: Sequence[float]) -> bool:
-        """Whether the stage is over after loops of these imitation errors [cm]."""
-        settled = self.settled is not None and self.settled.by(errors_cm)
-        return settled or len(errors_cm) >= self.loops
 
 
 @dataclass(frozen=True)
@@ -57,30 +22,67 @@ class Stage:
 
     Attributes:
         lesson: The sequences that are taught.
-        levels: How many levels of the network are open.
+        levels: How many levels of the network are open at least.
         manner: How the caregiver moves.
         until: When it ends.
+        choosing: What of the lesson is shown in a loop.
     """
 
     lesson: tuple[PrimitiveSequence, ...]
     levels: int
     manner: Manner
     until: Until
+    choosing: Choosing = field(default_factory=Choosing)
+
+    def at(self, loop: int, error_cm: float | None) -> "Stage":
+        """Return the stage as the caregiver shows its lesson in a loop, see `Motionese.at`."""
+        return replace(self, manner=self.manner.at(loop, error_cm))
 
 
 @dataclass(frozen=True)
-class LoopDone:
-    """What a loop tells of the course of a development: its stage (from 0), its mean error [cm]."""
+class Development:
+    """Stages that follow each other, and when the network grows beside them.
 
-    stage: int
-    error_cm: float
+    Attributes:
+        stages: The stages.
+        openings: By how many levels are open: until when that stays so.
+    """
+
+    stages: tuple[Stage, ...]
+    openings: Mapping[int, Until] = field(default_factory=dict)
+
+    def next_stage(self, done: Sequence[LoopDone]) -> int | None:
+        """Return which stage (from 0) the next loop belongs to; None if development has ended."""
+        if not done:
+            return 0
+        now = done[-1].stage
+        begun = sum(loop.stage < now for loop in done)
+        over = self.stages[now].until.over(begun, len(done), _steady(done), self._lesson(now))
+        return now + over if now + over < len(self.stages) else None
+
+    def next_levels(self, stage: int, done: Sequence[LoopDone]) -> int:
+        """Return how many levels are open in the next loop, which belongs to a stage (from 0)."""
+        if not done:
+            return self.stages[stage].levels
+        now = done[-1].levels
+        begun, opening = sum(loop.levels < now for loop in done), self.openings.get(now)
+        lesson = self._lesson(done[-1].stage)
+        opens = opening is not None and opening.over(begun, len(done), _steady(done), lesson)
+        return max(self.stages[stage].levels, now + opens)
+
+    def most_loops(self) -> int:
+        """Return how many loops it has at most."""
+        loops = 0
+        for stage in self.stages:
+            loops = stage.until.ends(loops)
+        return loops
+
+    def _lesson(self, stage: int) -> Collection[str]:
+        return [sequence.name for sequence in self.stages[stage].lesson]
 
 
-def next_stage(stages: Sequence[Stage], done: Sequence[LoopDone]) -> int | None:
-    """Return which stage (from 0) the next loop belongs to; None if development has ended."""
-    if not done:
-        return 0
-    now = done[-1].stage
-    errors = [loop.error_cm for loop in done if loop.stage == now]
-    following = now + stages[now].until.over(errors)
-    return following if following < len(stages) else None
+def _steady(done: Sequence[LoopDone]) -> list[LoopDone]:
+    """Return the loops since the last change of lesson or network."""
+    last = done[-1].stage, done[-1].levels
+    since = takewhile(lambda loop: (loop.stage, loop.levels) == last, reversed(done))
+    return list(since)[::-1]

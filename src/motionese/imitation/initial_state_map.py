@@ -102,8 +102,8 @@ def strokes_from(
         states: Initial states of all levels.
         first: The first row, as the own body senses it.
     """
-    length = scene.settings.caregiver.rows(primitive)
+    length, second = scene.manner.rows(primitive), scene.manner.rows_until_next(primitive)
     firsts = np.repeat(first[None], len(states), axis=0)
-    seen = scene.body.bearing(generate(network, states, 2 * length, first=firsts))
-    corners = [seen[:, row] for row in (0, length - 1, 2 * length - 1)]
+    seen = scene.body.bearing(generate(network, states, second + length, first=firsts))
+    corners = [seen[:, row] for row in (0, second - 1, second + length - 1)]
     return np.stack([stroke(begin, end) for begin, end in pairwise(corners)])

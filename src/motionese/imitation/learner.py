@@ -1,6 +1,6 @@
 """What a robot has become: its network and the experiences it learns from; how it is kept."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
@@ -12,6 +12,7 @@ from numpy import ndarray
 
 from motionese.channels import Channels
 from motionese.errors import StorageError
+from motionese.imitation.attention import Weigh
 from motionese.imitation.keys import key_for
 from motionese.imitation.repertoire import (
     Element,
@@ -40,6 +41,8 @@ from motionese.network import MTRNN, grow
 
 S = TypeVar("S", Training, Recognition)
 BABBLING = "babbling"
+Nearest = Callable[[Sequence[Element], Float[ndarray, "T D"], Float[ndarray, " D"]], str]
+"""The element nearest to what was seen, see `element_seen`."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +59,7 @@ class Experience:
             NaN before. [D]
         begins_with: By level below the top one: the element of its repertoire that it begins with.
             Itself where that is not told: it was made while the level was the top one.
+        begins: The rows at which its primitives began as it was shown; one where that is not told.
     """
 
     loop: int
@@ -64,6 +68,7 @@ class Experience:
     initial_state: Float[ndarray, " N"]
     error: Float[ndarray, " D"]
     begins_with: Mapping[str, str] = field(default_factory=dict)
+    begins: tuple[int, ...] = (0,)
 
     @property
     def name(self) -> str:
@@ -90,14 +95,18 @@ class Learner:
         values: Float[ndarray, "T D"],
         state: Float[ndarray, " N"],
         begins_with: Mapping[str, str] | None = None,
+        begins: tuple[int, ...] = (0,),
     ) -> "Learner":
         """Return the learner with a further experience."""
         unknown = np.full(values.shape[1], np.nan)
-        fresh = Experience(loop, motion, values, state, unknown, begins_with or {})
+        fresh = Experience(loop, motion, values, state, unknown, begins_with or {}, begins)
         return replace(self, experiences=(*self.experiences, fresh))
 
     def begins_with(
-        self, motion: str, shown: Float[ndarray, "T D"] | None = None
+        self,
+        motion: str,
+        shown: Float[ndarray, "T D"] | None = None,
+        nearest: Nearest = element_seen,
     ) -> dict[str, str]:
         """Return by closed level the element of its repertoire that a motion begins with.
 
@@ -106,12 +115,11 @@ class Learner:
         Args:
             motion: What the caregiver calls it.
             shown: What was seen of it, to go by that instead; NaN where nothing was. [T, D]
+            nearest: Which element's own motion is nearest to what was seen.
         """
         scale = self.channels.interval_widths
         return {
-            level: element_called(known, motion)
-            if shown is None
-            else element_seen(known, shown, scale)
+            level: element_called(known, motion) if shown is None else nearest(known, shown, scale)
             for level in self.network.names[1:-1]
             if (known := self.repertoire_of(level))
         }
@@ -160,6 +168,7 @@ class Learner:
         *,
         key: Array | None = None,
         padded_to: tuple[int, int] = (0, 0),
+        weigh: Weigh | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> tuple["Learner", Fit]:
         """Return what the learner becomes by training on all its experiences, and the fit.
@@ -169,9 +178,10 @@ class Learner:
             rate_hz: Rows a second.
             key: JAX random key of the state noise.
             padded_to: Motions and rows that training is compiled for, where there are fewer.
+            weigh: How much each row of an experience weighs; alike where left out.
             progress: Called while it trains.
         """
-        motions = self.motions(rate_hz)
+        motions = self.motions(rate_hz, weigh)
         fit = train(
             self.network,
             motions,
@@ -219,14 +229,22 @@ class Learner:
                     known[level, member] = replace(of, initial_state=state)
         return replace(self, elements=tuple(known.values()))
 
-    def motions(self, rate_hz: float) -> Motions:
-        """Return the experiences as motions to train on; NaN is what was not observed."""
+    def motions(self, rate_hz: float, weigh: Weigh | None = None) -> Motions:
+        """Return the experiences as motions to train on; NaN is what was not observed.
+
+        Args:
+            rate_hz: Rows a second.
+            weigh: How much each row of an experience weighs; alike where left out.
+        """
+        width = len(self.channels)
         return Motions.from_arrays(
             [e.values for e in self.experiences],
             self.channels,
             rate_hz,
             observed=[np.isfinite(e.values) for e in self.experiences],
             names=[e.name for e in self.experiences],
+            weights=weigh
+            and [np.repeat(weigh(e.values)[:, None], width, axis=1) for e in self.experiences],
         )
 
     @property
@@ -349,7 +367,7 @@ def write_learner(path: Path, learner: Learner, rate_hz: float, facts: dict[str,
     """Write a learner as a fit, with its experiences and JSON-able facts, whole or not at all."""
     told = {
         "experiences": [
-            {"loop": e.loop, "motion": e.motion, "begins_with": e.begins_with}
+            {"loop": e.loop, "motion": e.motion, "begins_with": e.begins_with, "begins": e.begins}
             for e in learner.experiences
         ],
         "elements": [{"level": e.level, "motion": e.motion} for e in learner.elements],
@@ -369,7 +387,12 @@ def read_learner(path: Path) -> tuple[Learner, dict[str, Any]]:
     learned = zip(fit.initial_states, fit.closed_loop_error, strict=True)
     try:
         experiences = tuple(
-            Experience(values=arrays[f"values.{i}"], initial_state=state, error=error, **each)
+            Experience(
+                values=arrays[f"values.{i}"],
+                initial_state=state,
+                error=error,
+                **{**each, "begins": tuple(each.get("begins", (0,)))},
+            )
             for i, (each, (state, error)) in enumerate(
                 zip(facts.pop("experiences"), learned, strict=True)
             )

@@ -10,17 +10,21 @@
 import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from motionese.caregiver import Manner
+from motionese.imitation.attention import attention
 from motionese.imitation.development import Stage
 from motionese.imitation.keys import key_for
-from motionese.imitation.learner import Learner
+from motionese.imitation.learner import Learner, Nearest
 from motionese.imitation.measures import path_error_cm, seen_error_cm
 from motionese.imitation.performance import Performance, Watched
+from motionese.imitation.repertoire import element_seen, element_to_a_pause
 from motionese.imitation.scene import Scene
+from motionese.imitation.segments import strokes_seen
 from motionese.learning import Recognition, RecognitionResult, Status, generate, recognise_all
 from motionese.task import Attempt, PrimitiveSequence
 
@@ -104,18 +108,22 @@ def imitation_loop(
     imitated = imitate(
         scene, learner, stage.lesson, settings.recognition, "loop", loop, manner=stage.manner
     )
+    grouping = settings.training.grouping
+    nearest = element_seen if grouping == "seen" else _up_to_a_pause(scene)
     for each in imitated:
         values = each.performance.experience(settings.imitation.efference_copy)
         name, state = each.sequence.name, each.found.initial_state
-        shown = scene.seen(each.watched) if settings.training.grouping == "seen" else None
-        begins_with = learner.begins_with(name, shown)
-        learner = learner.experiencing(loop, name, values, state, begins_with)
+        seen = None if grouping == "labels" else scene.seen(each.watched)
+        begins_with = learner.begins_with(name, seen, nearest)
+        begins = each.watched.begins
+        learner = learner.experiencing(loop, name, values, state, begins_with, begins)
     learner = learner.remembering(loop, settings.imitation.memory, rehearsed)
     learner, fit = learner.trained(  # step 4
         settings.training,
         rate_hz,
         key=key_for(scene.seed, "training", loop),
         padded_to=(capacity, 0),
+        weigh=attention(scene.body, settings),
     )
     recalled = _recalled(scene, learner, imitated, loop)
     seconds = (time.perf_counter() - began) / len(imitated)
@@ -131,6 +139,12 @@ def imitation_loop(
         for each, recall in zip(imitated, recalled, strict=True)
     ]
     return learner, rows, {"loop": loop, **network_row(learner), "loss": fit.losses[-1]}, fit.status
+
+
+def _up_to_a_pause(scene: Scene) -> Nearest:
+    """Return how the nearest element is found where the seen hand's pauses divide what is shown."""
+    bearing, rate_hz = scene.body.bearing, scene.body.rate_hz
+    return partial(element_to_a_pause, strokes=lambda v: strokes_seen(bearing(v), rate_hz))
 
 
 def _recalled(scene: Scene, learner: Learner, imitated: list[Imitation], loop: int) -> list[Row]:

@@ -1,6 +1,6 @@
 """What the robot does with its body: watch a demonstration, perform a sequence, babble."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,6 +78,19 @@ def watch(body: SimulatedRobot, demonstration: Demonstration, rng: np.random.Gen
         sensed.append(body.sense())
         seen.append(body.caregiver_position())
     return Watched(np.array(sensed), np.array(seen), demonstration.begins)
+
+
+def mean_of(shown: Sequence[Watched]) -> Watched:
+    """Return the mean of what was seen, row by row, of a motion that was shown several times.
+
+    As many rows as the shortest has, and as begun as the first.
+    """
+    if len(shown) == 1:
+        return shown[0]
+    rows = min(len(each.path) for each in shown)
+    sensed = np.mean([each.sensed[:rows] for each in shown], axis=0)
+    path = np.mean([each.path[:rows] for each in shown], axis=0)
+    return Watched(sensed, path, shown[0].begins)
 
 
 def perform(

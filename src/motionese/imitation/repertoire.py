@@ -8,7 +8,7 @@ above. It is one rule for all courses of development: in the paper's TD/MD the e
 the primitives, in TND/MD whole pairs, and with all levels from the start (MND) Cf has one state.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,11 +16,14 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
+from motionese.caregiver import lasting
+
 Sharing = Literal["repertoire", "first primitive", "none"]
 """Who shares a level's initial states: motions that begin with the same element of its repertoire,
 once a level has opened above it; those that begin with the same primitive, always; nobody."""
-Grouping = Literal["labels", "seen"]
-"""How it is known what a motion begins with: as the caregiver calls it, or as it was seen."""
+Grouping = Literal["labels", "seen", "pauses"]
+"""How it is known what a motion begins with: as the caregiver calls it, as it was seen, or as it
+was seen up to a pause."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,34 @@ def element_seen(
     def distance(element: Element) -> float:
         rows = min(len(shown), len(element.values))
         return float(np.nanmean(((shown[:rows] - element.values[:rows]) / scale) ** 2))
+
+    return min(elements, key=distance).motion
+
+
+def element_to_a_pause(
+    elements: Iterable[Element],
+    shown: Float[ndarray, "T D"],
+    scale: Float[ndarray, " D"],
+    strokes: Callable[[Float[ndarray, "_ D"]], Sequence[tuple[int, int]]],
+) -> str:
+    """Return the element whose own strokes are nearest to as many first strokes of what was shown.
+
+    Both are played as fast as each other: how long a stroke or a pause lasts does not matter.
+
+    Args:
+        elements: The elements.
+        shown: What was seen; NaN where nothing was, as of the joints. [T, D]
+        scale: What differences of a channel are divided by.
+        strokes: The rows in which strokes begin and end, see `strokes_seen`.
+    """
+    parts = strokes(shown) or ((0, len(shown)),)
+
+    def distance(element: Element) -> float:
+        own = strokes(element.values) or ((0, len(element.values)),)
+        first = shown[parts[0][0] : parts[min(len(own), len(parts)) - 1][1] + 1]
+        whole = element.values[own[0][0] : own[-1][1] + 1]
+        apart = (lasting(first, len(whole)) - whole) / scale
+        return float(np.nanmean(apart**2))
 
     return min(elements, key=distance).motion
 

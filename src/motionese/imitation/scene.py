@@ -1,6 +1,7 @@
 """The robot and the caregiver face to face: what one can see and do of the other's motions."""
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 
 import numpy as np
 from jaxtyping import Float
@@ -11,11 +12,12 @@ from motionese.caregiver import (
     Caregiver,
     Demonstration,
     Manner,
+    Motionese,
     RecordedCaregiver,
     ScriptedCaregiver,
 )
 from motionese.imitation.keys import generator_for
-from motionese.imitation.performance import Performance, Watched, babble, perform, watch
+from motionese.imitation.performance import Performance, Watched, babble, mean_of, perform, watch
 from motionese.imitation.settings import Settings
 from motionese.learning import Motions
 from motionese.network import MTRNN
@@ -35,6 +37,7 @@ class Scene:
         body: The robot.
         joints: Which channels the commanded joints are.
         postures: Commanded joint angles [rad] that hold the hand in a place.
+        manner: How sequences are shown where nothing else is said: as to an adult.
     """
 
     def __init__(self, settings: Settings, seed: int, recordings: Recordings | None = None) -> None:
@@ -46,6 +49,7 @@ class Scene:
             recordings: Demonstrations that are shown in the place of scripted ones.
         """
         self.settings, self.seed = settings, seed
+        self.manner = settings.caregiver.to_adults()
         self.task = settings.task.task()
         self.body = open_body(settings.body, self.task)
         self.joints = self.body.channels.indices(self.body.joints)
@@ -56,17 +60,32 @@ class Scene:
         }
         self._arms = {place: self._arm_at(place) for place in self.task.places}
 
+    def shown_with(self, motionese: Motionese) -> "Scene":
+        """Return the scene in which sequences are shown with motionese, if nothing else is said."""
+        other = copy(self)
+        other.manner = self.manner.model_copy(update={"motionese": motionese})
+        return other
+
     def caregiver(self, manner: Manner | None = None) -> Caregiver:
-        """Return who shows sequences, in the settings' manner if no other is given."""
-        scripted = ScriptedCaregiver(self.task, manner or self.settings.caregiver, self.body)
+        """Return who shows sequences, in the scene's manner if no other is given."""
+        scripted = ScriptedCaregiver(self.task, manner or self.manner, self.body)
         return RecordedCaregiver(self._recordings, scripted) if self._recordings else scripted
 
     def show(
         self, sequence: PrimitiveSequence, *occasion: str | int, manner: Manner | None = None
     ) -> Watched:
-        """Let the caregiver show a sequence; on the same occasion it is the same to the bit."""
-        rng = generator_for(self.seed, "demonstration", *occasion, sequence.name)
-        return watch(self.body, self.caregiver(manner).demonstrate(sequence, rng), rng)
+        """Let the caregiver show a sequence; on the same occasion it is the same to the bit.
+
+        Where it is shown several times, what is returned is the mean of all of them.
+        """
+        manner = manner or self.manner
+        caregiver, purpose = self.caregiver(manner), (*occasion, sequence.name)
+        again = range(2, manner.motionese.times_shown + 1)
+        shown = []
+        for each in [purpose, *((*purpose, "again", time) for time in again)]:
+            rng = generator_for(self.seed, "demonstration", *each)
+            shown.append(watch(self.body, caregiver.demonstrate(sequence, rng), rng))
+        return mean_of(shown)
 
     def as_own(self, start: str, watched: Watched) -> Float[ndarray, "T D"]:
         """Return what was watched with the own arm where it will start from, in every row."""

@@ -1,7 +1,7 @@
 """What may be varied about an imitation, as types with their allowed ranges."""
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, TypeVar, get_args
+from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
@@ -23,7 +23,7 @@ class Group(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-M = TypeVar("M", bound=Group)
+M = TypeVar("M", bound=BaseModel)
 
 
 class TaskSettings(Group):
@@ -89,15 +89,29 @@ class Acting(Group):
     rehearsal: bool
 
 
+class Attention(Group):
+    """What weighs more in equation (3), see `imitation.attention`.
+
+    Attributes:
+        to: Rows in which the seen hand rests, or those in which it moves.
+        strength: s; with 0 all rows weigh alike.
+    """
+
+    to: Literal["rests", "movement"] = "rests"
+    strength: float = Field(default=0.0, ge=0, le=100)
+
+
 class StagedTraining(Training):  # type: ignore[metaclass]
     """Training all through a development.
 
     Attributes:
+        attention: What weighs more.
         shared: By level, which motions share its initial states; nobody where it is not named.
         grouping: How it is known which element of a repertoire a motion begins with; its first
             primitive is always known by name.
     """
 
+    attention: Attention = Attention()
     shared: dict[str, Sharing] = Field(default_factory=dict)
     grouping: Grouping = "labels"
 
@@ -126,7 +140,12 @@ class Roles(Group):
 
 
 class Evaluation(Group):
-    """Recognition of new motions and of shown ones, and the map of the slow initial states."""
+    """Recognition of new motions and of shown ones, and the map of the slow initial states.
+
+    Attributes:
+        motionese: Whether what is shown has what is left of motionese after the last loop, or is
+            as to an adult.
+    """
 
     recognition: Recognition
     repertoire: Recognition
@@ -134,6 +153,7 @@ class Evaluation(Group):
     roles: Roles
     map_points: int = Field(ge=2)
     map_range: float = Field(gt=0, allow_inf_nan=False)
+    motionese: bool = False
 
 
 class Settings(Group):
@@ -173,6 +193,15 @@ class Settings(Group):
                 raise ValueError(unknown("level in training.shared", level, below))
         return self
 
+    @model_validator(mode="after")
+    def _rest_can_be_told_from_noise(self) -> "Settings":
+        if self.training.attention.strength and not self.body.pixel_noise:
+            raise ValueError(
+                "training.attention.strength above 0 needs body.pixel_noise above 0: what rests is "
+                "told by the speed that this noise alone makes"
+            )
+        return self
+
 
 def checked(model: type[M], table: Table) -> M:
     """Return the settings of a complete table; `SettingError` names the first that is wrong."""
@@ -199,7 +228,8 @@ def checked(model: type[M], table: Table) -> M:
                 f"setting {name}.name = '{asked}': input should be {among}"
             ) from error
         if first["type"] == "missing":
-            raise SettingError(f"setting {name} is missing") from error
+            few = f" = {here}: it has too few entries" if isinstance(here, list) else " is missing"
+            raise SettingError(f"setting {name}{few}") from error
         got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
         what = first["msg"].removeprefix("Value error, ")
         what = what[:1].lower() + what[1:]

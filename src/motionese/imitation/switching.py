@@ -9,7 +9,7 @@ from numpy import ndarray
 from motionese.caregiver import Demonstration
 from motionese.imitation.following import recognised_while_shown
 from motionese.imitation.keys import generator_for
-from motionese.imitation.learner import Learner
+from motionese.imitation.learner import Experience, Learner
 from motionese.imitation.loop import Row
 from motionese.imitation.performance import watch
 from motionese.imitation.scene import Scene
@@ -90,7 +90,7 @@ def switched(
         seen = generator_for(scene.seed, "demonstration", "switch", attempt)
         watched = watch(scene.body, demonstration, seen)
         results = recognised_while_shown(scene, learner, first.start, watched)
-        steps = _noticed(scene, results, row, primitives)
+        steps = _noticed(scene, learner, results, row, primitives)
         found.append(Switch(first, second, row, steps, results))
     return found
 
@@ -121,17 +121,21 @@ def primitives_of(sequence: PrimitiveSequence, begins: Sequence[int], rows: int)
 
 
 def _noticed(
-    scene: Scene, results: Sequence[OnlineResult], row: int, primitives: Sequence[str]
+    scene: Scene,
+    learner: Learner,
+    results: Sequence[OnlineResult],
+    row: int,
+    primitives: Sequence[str],
 ) -> int | None:
+    learned = {each.name: each for each in learner.experiences}
     for result, primitive in zip(results[row + 1 :], primitives[row + 1 :], strict=False):
         name, place = result.learned
-        if result.likeliest != NONE and _believed(scene, name, place) == primitive:
+        if result.likeliest != NONE and _believed(scene, learned[name], place) == primitive:
             return result.row - row
     return None
 
 
-def _believed(scene: Scene, name: str, place: int) -> str:
+def _believed(scene: Scene, learned: Experience, place: int) -> str:
     """Return the primitive that a learned motion is in, in one of its rows."""
-    sequence = scene.task.sequence(sequence_of(name))
-    begins = scene.caregiver().demonstrate(sequence, np.random.default_rng(0)).begins
-    return primitives_of(sequence, begins, max(place, begins[-1]) + 1)[place]
+    sequence = scene.task.sequence(learned.motion)
+    return primitives_of(sequence, learned.begins, place + 1)[place]

@@ -58,7 +58,8 @@ def memory_demand(
 
     Args:
         lesson: Its sequences; one that is there twice counts twice.
-        rows: How many rows showing a sequence takes, such as a caregiver's `Manner.rows`.
+        rows: How many rows after the start of a sequence another primitive begins, such as a
+            caregiver's `Manner.rows_until_next`.
     """
     transitions = [
         (PrimitiveSequence(sequence.primitives[:at]), following)

@@ -10,7 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motionese.imitation.roles import RecognisedDemonstration
-from motionese.imitation.roles.symbols import ReadOut, edit_distance, read_out, symbols_read
+from motionese.imitation.roles import readings as readings_of
+from motionese.imitation.roles.symbols import (
+    ReadOut,
+    edit_distance,
+    read_out,
+    symbols_read,
+)
 from motionese.learning import activity
 from motionese.unit_interval import logit
 
@@ -95,7 +101,7 @@ def alone_of(lesson):
 @pytest.mark.parametrize("name", ["separate", "all_in_cf", "all_in_cs"])
 def test_motions_that_go_through_their_primitives_are_read_as_these(lesson_of, name):
     lesson = lesson_of(name)
-    rows = symbols_read(lesson, alone_of(lesson), lesson)
+    rows = symbols_read(readings_of(lesson, alone_of(lesson), lesson))
 
     assert [(row["level"], row["reference"]) for row in rows[:: len(MOTIONS) * 2]] == [
         (level, reference) for level in ("io", "cf", "cs") for reference in ("alone", "taught")
@@ -119,11 +125,14 @@ def test_a_motion_is_read_by_other_demonstrations_than_itself(lesson_of):
     """A lesson of a single demonstration leaves only other motions to read it by."""
     lesson = lesson_of("separate", motions=MOTIONS[:2], demonstrations=1)
     none = replace(lesson, demonstrations=())
-    rows = [r for r in symbols_read(lesson, none, lesson) if r["level"] == "cf"]
+    rows = [r for r in symbols_read(readings_of(lesson, none, lesson)) if r["level"] == "cf"]
     assert [row["reference"] for row in rows] == ["taught"] * 2
     assert all(row["edit_distance"] > 0 for row in rows)
 
 
 def test_a_level_at_rest_is_not_read(lesson_of):
     lesson = lesson_of("all_in_cf", scatter=0.0)
-    assert {row["level"] for row in symbols_read(lesson, lesson, lesson)} == {"io", "cf"}
+    assert {row["level"] for row in symbols_read(readings_of(lesson, lesson, lesson))} == {
+        "io",
+        "cf",
+    }

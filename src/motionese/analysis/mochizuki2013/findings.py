@@ -85,16 +85,18 @@ def findings(tables: Tables) -> list[Finding]:
     """Return what the runs say to every test of the plan whose tables there are."""
     found: list[Finding] = []
     for family, tests in groupby(_planned(tables), lambda test: test.family):
-        tested = _tested(list(tests))
+        answered = tested(list(tests))
         if family == SEPARATION:
             lengths = _by_seed(tables[ORDER], "separation")[TD_MD]
             text = f"Only {TD_MD} separates the roles"
-            found.append(_together(text, lengths, CLEAR, [t for t in tested if t.against != FREE]))
+            found.append(
+                _together(text, lengths, CLEAR, [t for t in answered if t.against != FREE])
+            )
         if family == MAP:
             lengths = _by_seed(tables[DEFAULT], "map_length_1")[TD_MD]
             text = f"With Cf₀ held, the direction is the same over the Cs₀ map in {TD_MD} only"
-            found.append(_together(text, lengths, SAME, tested))
-        found += tested
+            found.append(_together(text, lengths, SAME, answered))
+        found += answered
     return found
 
 
@@ -170,7 +172,7 @@ def _by_seed(table: pd.DataFrame, column: str) -> pd.DataFrame:
     return wide.reindex(columns=[TD_MD, *OTHERS]).astype(float)
 
 
-def _tested(tests: Sequence[PlannedTest]) -> list[Finding]:
+def tested(tests: Sequence[PlannedTest]) -> list[Finding]:
     """Return what the seeds say to the tests of one family."""
     found = [_contrast(test) for test in tests]
     corrected = holm([each.p for each in found])

@@ -11,14 +11,15 @@ from motionese.experiment.study import Study
 from motionese.imitation import checked, setting_names
 
 PRESETS = (
-    *("default", "order", "free", "paper", "three_stages", "settled"),
+    *("default", "order", "free", "paper", "three_stages", "four_levels"),
+    *("settled", "adaptive", "scaffolding"),
     *("desk_arm", "shapes"),
 )
 WHOLE = ("network.levels", "factors")
 """Tables that stand for themselves: a file that has one leaves nothing of the default's."""
 OPEN_GROUPS = (
     *("training.bound", "training.noise", "training.shared"),
-    *("recognition.bound", "recognition.slower", "task.places"),
+    *("recognition.bound", "recognition.slower", "task.places", "opens"),
 )
 """Tables whose names are not fixed: levels and places, checked with the whole."""
 QUICK_LOOPS = 2
@@ -55,6 +56,7 @@ def read_settings(
         for stage in table["stages"] if isinstance(table["stages"], list) else ():
             if isinstance(stage, dict):
                 stage["until"] = {"loops": QUICK_LOOPS}
+        table["opens"] = {level: {"loops": QUICK_LOOPS} for level in table.get("opens", {})}
     for override in overrides:
         table = _laid_over(table, _single(override, table))
     return study_of(_with_evaluation(table))

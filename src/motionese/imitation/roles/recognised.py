@@ -124,6 +124,7 @@ def recognised(
     lesson: Sequence[PrimitiveSequence],
     settings: Recognition,
     demonstrations: int,
+    occasion: str = "roles",
 ) -> RecognisedLesson:
     """Show fresh demonstrations of a lesson's motions and let a learner recognise them.
 
@@ -135,9 +136,10 @@ def recognised(
         lesson: The motions.
         settings: How their initial states are found.
         demonstrations: How many of each motion.
+        occasion: On what they are shown; on the same one they are the same.
     """
     shown = [
-        (sequence, number, scene.show(sequence, "roles", number))
+        (sequence, number, scene.show(sequence, occasion, number))
         for sequence, number in product(lesson, range(1, demonstrations + 1))
     ]
     values = [scene.as_own(sequence.start, watched) for sequence, _, watched in shown]
@@ -145,10 +147,10 @@ def recognised(
         (learner.network, learner.memory),
         scene.to_recognise(values),
         settings=learner.for_levels(settings),
-        key=key_for(scene.seed, "recognition", "roles"),
+        key=key_for(scene.seed, "recognition", occasion),
     )
     bearing = scene.body.bearing
-    alone = {s.primitives[0]: scene.show(s, "roles", 0) for s in scene.task.sequences(1)}
+    alone = {s.primitives[0]: scene.show(s, occasion, 0) for s in scene.task.sequences(1)}
     return RecognisedLesson(
         learner.network,
         bearing,

@@ -15,9 +15,10 @@ through from first row to last. No price is set on a change: what is not there w
 through as a whole.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -52,10 +53,28 @@ class ReadOut:
         return float(np.abs(np.subtract(self.boundaries, begins[1:])).max())
 
 
-def symbols_read(
+class Reading(NamedTuple):
+    """What was read of a motion in a level's activity, by one kind of signatures.
+
+    Attributes:
+        level: The level's name.
+        reference: The kind of signatures, see `readings`.
+        motion: What was read.
+        read: As what.
+        signs: Of all primitives there are, by name.
+    """
+
+    level: str
+    reference: str
+    motion: GeneratedMotion
+    read: ReadOut
+    signs: Mapping[str, str]
+
+
+def readings(
     shown: RecognisedLesson, alone: RecognisedLesson, taught: RecognisedLesson
-) -> list[Row]:
-    """Read what motions consist of from every level's activity, and compare it with what was shown.
+) -> list[Reading]:
+    """Read what motions consist of from every level's activity.
 
     It is read by two kinds of signatures, never by those of the demonstration that is read:
 
@@ -71,13 +90,12 @@ def symbols_read(
         taught: The lesson; it may be `shown`.
 
     Returns:
-        A row for each level, kind of signatures (`reference`) and motion: its signs as `read` and
-        as they are (`true`), the edit distance of the primitives, the error of the boundary that
-        is most off [steps]. None for a level whose activity is the same in all signatures.
+        One for each level, kind of signatures and motion. None for a level whose activity is the
+        same in all signatures.
     """
     motions, by_itself, in_lesson = (generated(each) for each in (shown, alone, taught))
     references = {"alone": by_itself, "taught": by_itself + in_lesson}
-    rows: list[Row] = []
+    found = []
     for level, (name, reference) in product(shown.network.names, references.items()):
         own = shown.network.units(level)
         for motion in motions:
@@ -87,8 +105,24 @@ def symbols_read(
             if signatures and np.ptp(np.concatenate([s for _, s in signatures]), axis=0).any():
                 read = read_out(motion.activity[:, own], signatures)
                 signs = {p.name: p.sign for m in (motion, *others) for p in m.sequence.primitives}
-                rows.append({"level": level, "reference": name, **_compared(motion, read, signs)})
-    return rows
+                found.append(Reading(level, name, motion, read, signs))
+    return found
+
+
+def symbols_read(read: Iterable[Reading]) -> list[Row]:
+    """Return a row for each reading, compared with what was shown.
+
+    Its signs as `read` and as they are (`true`), the edit distance of the primitives, the error of
+    the boundary that is most off [steps].
+    """
+    return [
+        {
+            "level": each.level,
+            "reference": each.reference,
+            **_compared(each.motion, each.read, each.signs),
+        }
+        for each in read
+    ]
 
 
 def _compared(motion: GeneratedMotion, read: ReadOut, signs: Mapping[str, str]) -> Row:

@@ -216,7 +216,7 @@ class Robot:
 
     def _demonstrate(self, message: dict[str, Any]) -> Iterator[float]:
         scene = self.teaching.scene
-        manner = scene.settings.caregiver
+        manner = scene.manner
         try:
             sequence = scene.task.sequence(message["motion"])
             if manner.rows(sequence) > most_rows(manner):
