@@ -103,6 +103,12 @@ def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
     """Return the recording with finite values wherever something was observed."""
     if nan_is_gap:
         recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
+    # The extremes tell of nearly all recordings that nothing is to be looked for, without a copy.
+    if all(
+        -LARGEST <= e.values.min(initial=0.0) and e.values.max(initial=0.0) <= LARGEST
+        for e in recording.episodes
+    ):
+        return recording
     if wrong := recording.first(lambda e: e.observed & ~(np.abs(e.values) <= LARGEST)):
         where, value = wrong
         hint = "; --nan gap takes NaN as not observed" if np.isnan(value) else ""
