@@ -105,7 +105,7 @@ def finite(recording: Recording, *, nan_is_gap: bool) -> Recording:
         recording = recording.map(lambda e: replace(e, observed=e.observed & ~np.isnan(e.values)))
     # The extremes tell of nearly all recordings that nothing is to be looked for, without a copy.
     if all(
-        -LARGEST <= e.values.min(initial=0.0) and e.values.max(initial=0.0) <= LARGEST
+        e.values.min(initial=0.0) >= -LARGEST and e.values.max(initial=0.0) <= LARGEST
         for e in recording.episodes
     ):
         return recording
