@@ -133,7 +133,7 @@ def lesson(visitor: Visitor, motion: str, number: int) -> None:
     visitor.does("replay", entry=visitor.notebook[0]["entry"])
     if visitor.session["can_grow"] and number >= BEFORE_GROWTH:
         visitor.does("grow")
-    if visitor.session["can_map"] and number % 3 == 0:
+    if number % 3 == 0:
         visitor.does("map")
         visitor.say({"type": "hover", "slow": [0.5, -1.0], "primitive": "UR ↓"})
     if number % 4 == 3:
