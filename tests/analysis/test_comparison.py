@@ -1,5 +1,8 @@
 """One report for several run folders: what is kept first, and these runs beside it."""
 
+import json
+import shutil
+
 import pandas as pd
 import pytest
 from invented_results import measures_table, write_reported
@@ -154,3 +157,20 @@ def test_where_it_cannot_be_written_is_told(kept, own, tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(RunFolderError, match="file cannot be written: File exists"):
         write_comparison([own / "order"], tmp_path / "file" / "report.html")
+
+
+def test_what_was_no_setting_yet_is_told_only_where_it_is_used(results, tmp_path, monkeypatch):
+    older = tmp_path / "older"
+    shutil.copytree(results, older)
+    facts = json.loads((older / "runs.json").read_text())
+    del facts["order"]["settings"]["caregiver"]["motionese"]
+    (older / "runs.json").write_text(json.dumps(facts))
+    monkeypatch.setattr("motionese.analysis.kept.RESULTS", older)
+    measured = measures_table(range(3))
+    paused = read_settings("order", ["caregiver.motionese.pauses.strength=1"])
+
+    plain = write_reported(tmp_path / "own" / "plain", measured, ORDER)
+    assert "other settings" not in written([plain], tmp_path / "own" / "plain.html").text
+    other = write_reported(tmp_path / "own" / "paused", measured, paused)
+    told = "(kept → yours): caregiver.motionese.pauses.strength: 0.0 → 1.0."
+    assert told in written([other], tmp_path / "own" / "paused.html").text

@@ -16,7 +16,7 @@ from motionese.analysis.kept import KeptRuns
 from motionese.analysis.reported import Reported
 from motionese.analysis.statistics import DECIDING
 from motionese.analysis.templates import rendered
-from motionese.experiment.presets import differences
+from motionese.experiment.presets import differences, study_of
 from motionese.experiment.run_folder import REPORT
 from motionese.figure_style import Drawing
 
@@ -144,7 +144,10 @@ def _warnings(series: Series) -> Iterator[str]:
     found, before = series.found, series.kept_runs
     if before is None:
         yield f"Nothing is kept of preset {found.preset}: these runs stand alone."
-    elif changes := differences(before.settings, found.study.model_dump(mode="json")):
+    # What was no setting yet when they were made had its effect left out, as it has by default.
+    elif changes := differences(
+        study_of(before.settings).model_dump(mode="json"), found.study.model_dump(mode="json")
+    ):
         yield f"These runs have other settings than the kept ones (kept → yours): {_few(changes)}."
     ends = found.runs["status"].value_counts()
     told = [f"{ends[status]} {words}" for status, words in ENDS.items() if status in ends]
