@@ -26,6 +26,8 @@ from psutil import Process
 from rich.console import Console
 from rich.table import Table
 
+from motionese.teaching.school import MOST
+
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 try:
     from drawn import strokes
@@ -37,7 +39,7 @@ except ImportError as error:
 ROBOTS = 5
 PRIMITIVES = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑")
 PAIRS = ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑", "LL ↑↓")
-LONG = ("imitate", "learn", "grow", "map", "begin")
+LONG = ("imitate", "learn", "grow", "begin")
 """What the robot tells that it is busy with."""
 BEFORE_GROWTH = 6
 """Lessons before a robot grows."""
@@ -134,7 +136,8 @@ def lesson(visitor: Visitor, motion: str, number: int) -> None:
     if visitor.session["can_grow"] and number >= BEFORE_GROWTH:
         visitor.does("grow")
     if number % 3 == 0:
-        visitor.does("map")
+        visitor.say({"type": "map"})
+        visitor.until(lambda message: message["type"] == "map")
         visitor.say({"type": "hover", "slow": [0.5, -1.0], "primitive": "UR ↓"})
     if number % 4 == 3:
         visitor.does("forget", entry=visitor.notebook[-1]["entry"])
@@ -174,7 +177,8 @@ def main() -> None:
         with served(folder, "babbling") as server, visit(server) as visitor:
             for number in range(ROBOTS):
                 if number:
-                    visitor.does("begin", **{"with": "babbling"})
+                    away = visitor.session["id"] if number >= MOST else ""
+                    visitor.does("begin", **{"with": "babbling"}, away=away)
                 lives.append(Life())
                 for life in live(server, visitor, seconds):
                     lives[-1] = life
