@@ -31,14 +31,15 @@ MAPPED, MOST_MAPPINGS = Path("/proc/self/maps"), 20_000
 COMPILING = (
     "analysis",
     "contracts",
-    "experiment",
     "imitation",
     "learning",
     "network",
     "roles",
     "runtime",
 )
-"""Folders whose tests compile far longer than they compute: little is optimised there."""
+"""Folders whose tests compile far longer than they compute: little is optimised there.
+
+Not `experiment`, which compares bits with those of processes that optimise."""
 
 settings.register_profile(
     "motionese",
