@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motionese.recordings import Episode, Recording
+from motionese.recordings import Episode, Recording, read
 
 
 @pytest.fixture
@@ -41,3 +41,16 @@ def whole(recording):
         episodes,
         recording.usual,
     )
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Write a table and read it."""
+
+    def wrote(content, name="table.csv", **given):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return read(path, **given)
+
+    return wrote

@@ -7,19 +7,6 @@ from motionese.errors import RecordingError
 from motionese.recordings import read, write
 
 
-@pytest.fixture
-def table(tmp_path):
-    """Write a table and read it."""
-
-    def wrote(text, name="table.csv", **given):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return read(path, **given)
-
-    return wrote
-
-
 def test_an_episode_column_a_time_column_and_units_are_found(table):
     found = table(
         "Episode,time [ms],shoulder [rad],position[0],frame\n"

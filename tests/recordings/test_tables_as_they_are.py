@@ -21,19 +21,6 @@ def text(header, *columns, separator=","):
 PLAIN = text("time,a,b", T, A, B)
 
 
-@pytest.fixture
-def table(tmp_path):
-    """Write a table and read it."""
-
-    def wrote(content, name="table.csv", **given):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return read(path, **given)
-
-    return wrote
-
-
 def told(recording):
     return [finding.sentence for finding in recording.findings]
 

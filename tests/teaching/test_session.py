@@ -218,7 +218,7 @@ def assert_same_trial(one, other):
 
 
 @pytest.mark.parametrize("file", ["session.json", "shown-0001.npz", "tried-0001-00001.npz"])
-@pytest.mark.parametrize("damage", ["missing", "empty"])
+@pytest.mark.parametrize("damage", ["missing", b"", b"[" * 100_000])
 def test_a_damaged_session_names_the_file_and_what_can_be_done(
     teaching, draw, tmp_path, file, damage
 ):
@@ -226,7 +226,7 @@ def test_a_damaged_session_names_the_file_and_what_can_be_done(
     teaching.show(draw("UR ←"), "drawn")
     teaching.imitate()
     folder.save(teaching)
-    (tmp_path / file).unlink() if damage == "missing" else (tmp_path / file).write_bytes(b"")
+    (tmp_path / file).unlink() if damage == "missing" else (tmp_path / file).write_bytes(damage)
     with pytest.raises(StorageError, match=rf"{file} cannot be read.*put the file back"):
         SessionFolder(tmp_path).read()
 

@@ -62,7 +62,7 @@ def _in_words(value: Any) -> str:
 def _json(path: Path) -> dict[str, Any]:
     try:
         found = json.loads(path.read_text()) if path.is_file() else {}
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise RunFolderError(f"{path}: not a JSON object: {error}") from error
     if not isinstance(found, dict):
         raise RunFolderError(f"{path}: not a JSON object, got {type(found).__name__}")

@@ -85,7 +85,7 @@ class Run:
         path = self.folder / ENDED
         try:
             ended = json.loads(path.read_text()) if path.is_file() else None
-        except (OSError, ValueError):
+        except (OSError, ValueError, RecursionError):
             ended = {}
         if ended is not None and not (isinstance(ended, dict) and "status" in ended):
             raise StorageError(f"{path}: cannot be read; remove it, and the run is evaluated again")

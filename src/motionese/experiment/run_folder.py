@@ -181,7 +181,7 @@ def run_demonstrations(path: Path) -> str:
 def _facts(file: Path) -> Facts:
     try:
         facts = json.loads(file.read_text())
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise RunFolderError(f"{file} cannot be read: {error}") from error
     return facts if isinstance(facts, dict) else {}
 

@@ -213,7 +213,7 @@ def _recognised(
     scene: Scene, recogniser: Recogniser, lesson: list[PrimitiveSequence], drawn: InteractiveMap
 ) -> Generator[None, None, RecognisedLesson]:
     """Show the motions of a lesson afresh, and let them be recognised one by one."""
-    found, bearing, manner = [], scene.body.bearing, scene.settings.caregiver
+    found, bearing, manner = [], scene.body.bearing, scene.manner
     for number in range(1, scene.settings.evaluation.roles.demonstrations + 1):
         for sequence in lesson:
             if manner.rows(sequence) > most_rows(manner):

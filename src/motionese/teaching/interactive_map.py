@@ -114,7 +114,7 @@ class InteractiveMap:
         if primitive not in self._origins:
             return None
         held, first = self._origins[primitive]
-        manner = self._scene.settings.caregiver
+        manner = self._scene.manner
         state = self.plane.moved(held, np.array(at))
         values = generate(self._network, state, most_rows(manner), first=first)
         return hand_seen(self._scene.body, values[: 2 * manner.primitive_rows])

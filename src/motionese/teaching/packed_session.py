@@ -72,7 +72,7 @@ def taught_of(content: bytes, where: object) -> str:
     try:
         facts = json.loads(content)
         form, version, taught = facts["format"], facts["version"], str(facts["taught"])
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise StorageError(f"{where} was not written by motionese") from error
     if form != FORMAT or (version == VERSION and taught not in PLACES):
         raise StorageError(f"{where} was not written by motionese")

@@ -47,7 +47,7 @@ def origins(folder: Path) -> set[str]:
     """Return what the robots of a session began from, those that were put away included."""
     found = set()
     for file in folder.rglob(SESSION):
-        with suppress(OSError, ValueError, KeyError, TypeError):
+        with suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             found.add(str(json.loads(file.read_text())["began"]))
     return found
 

@@ -38,7 +38,16 @@ from motionese.teaching.trial_file import read_trial, write_trial
 
 FORMAT, VERSION = "motionese-teaching", 3
 FRESH = "fresh"
-CHANGED = (OSError, EOFError, ValueError, KeyError, TypeError, AttributeError, BadZipFile)
+CHANGED = (
+    OSError,
+    EOFError,
+    ValueError,
+    KeyError,
+    TypeError,
+    AttributeError,
+    BadZipFile,
+    RecursionError,
+)
 """What reading a file meets that was changed since it was written."""
 LEVELS = 2
 """Levels of a robot at the beginning: input and output, and the fastest context."""

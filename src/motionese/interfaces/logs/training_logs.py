@@ -115,7 +115,7 @@ def _lines_until(path: Path, epoch: int) -> list[str]:
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True):
         try:
             told = json.loads(line)["epoch"]
-        except (ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, RecursionError):
             continue
         if line.endswith("\n") and told <= epoch:
             kept.append(line)
