@@ -1,4 +1,9 @@
-"""Writes the page on the experiments on motionese from the run folders of their arms."""
+"""Writes the page on the experiments on motionese from the run folders of their arms.
+
+    python docs/results/motionese_arms.py runs/motionese
+
+Arms that were run elsewhere stay as the table beside the page keeps them.
+"""
 
 import sys
 from collections.abc import Iterator
@@ -46,9 +51,29 @@ def _table(head: list[str], rows: list[list[str]]) -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
+def kept_arms(file: Path) -> Arms:
+    """Return the arms of the table beside the page, none if there is no such table."""
+    if not file.is_file():
+        return {}
+    table = pd.read_csv(file, index_col=["arm", "seed"])
+    return {
+        name: rows.droplevel("arm").dropna(axis="columns", how="all")
+        for name, rows in table.groupby("arm")
+    }
+
+
+def in_order(name: str) -> tuple[str, int, str]:
+    """Return what arms are sorted by: free-2 comes before free-12."""
+    sharing, _, rest = name.partition("-")
+    steps, _, more = rest.partition("-")
+    return (sharing, int(steps), more) if steps.isdigit() else (sharing, 1000, rest)
+
+
 if __name__ == "__main__":
-    folders = sorted(path.parent for path in Path(sys.argv[1]).glob("*/measures.csv"))
-    found = {folder.name: arm_table(folder) for folder in folders}
     page = Path(__file__).with_suffix(".md")
-    page.write_text("\n".join([*lines(found), ""]), encoding="utf-8")
-    pd.concat(found, names=["arm", "seed"]).to_csv(page.with_suffix(".csv"))
+    run_folders = [path.parent for path in Path(sys.argv[1]).glob("*/measures.csv")]
+    found = kept_arms(page.with_suffix(".csv")) | {f.name: arm_table(f) for f in run_folders}
+    arms = {name: found[name] for name in sorted(found, key=in_order)}
+    page.write_text("\n".join([*lines(arms), ""]), encoding="utf-8")
+    table = pd.concat(arms, names=["arm", "seed"])
+    table.to_csv(page.with_suffix(".csv"), float_format="%.6g", lineterminator="\n")
