@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pandas as pd
-from invented_runs import CONDITIONS, STUDY, write_settings
+from invented_runs import CONDITIONS, STUDY, list_anew, write_settings
 
 from motionese.analysis.beside_kept import SHOWN
 
@@ -36,4 +36,5 @@ def write_reported(folder, measures, study=STUDY, preset="order", ends=()):
         }.items()
     ]
     pd.DataFrame(rows).to_csv(folder / "runs.csv", index=False)
+    list_anew(folder)
     return folder

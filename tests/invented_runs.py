@@ -7,6 +7,7 @@ import pandas as pd
 from invented_roles import role_tables
 
 from motionese.experiment import condition_named, read_settings
+from motionese.experiment.digests import DIGESTS, list_files
 from motionese.task import PUSHING_BUTTONS
 
 STUDY = read_settings()
@@ -21,8 +22,15 @@ def condition(name):
 def write_settings(root, study=STUDY, **facts):
     """Write the settings of a run folder."""
     settings = study.model_dump(mode="json")
-    facts = {"format": "motionese-run", "version": 4, "settings": settings} | facts
+    facts = {"format": "motionese-run", "version": 5, "settings": settings} | facts
     (root / "settings.json").write_text(json.dumps(facts))
+    list_anew(root)
+
+
+def list_anew(folder):
+    """List the digests of all files of a folder, as if each was written as it is now."""
+    (folder / DIGESTS).unlink(missing_ok=True)
+    list_files(folder, [path.name for path in folder.iterdir() if path.is_file()])
 
 
 LOOPS, CHANGE = 8, 4
@@ -158,6 +166,7 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None, s
     for loop in range(1, loops + 1):
         (folder / f"loop-{loop:02d}.safetensors").touch()
     if end == "unfinished":
+        list_anew(folder)
         return folder
     error = ERRORS[name] if error is None else error
     opens = 1 if "MND" in condition.choices else CHANGE + 1
@@ -177,23 +186,16 @@ def write_run(root, condition, seed, *, end="finished", error=None, turn=None, s
     for file, table in tables.items():
         table.to_csv(folder / file, index=False)
     reason = "" if end == "finished" else "loop 2: diverged at epoch 3"
-    rows = {file: len(table) for file, table in tables.items()}
-    write_end(folder, {"status": end, "reason": reason, "seconds": 12.5, "rows": rows})
+    ended = {"status": end, "reason": reason, "seconds": 12.5}
+    (folder / "ended.json").write_text(json.dumps(ended))
+    list_anew(folder)
     return folder
-
-
-def write_end(folder, ended):
-    """Write how a run ended, or change what is said of it."""
-    path = folder / "ended.json"
-    before = json.loads(path.read_text()) if path.is_file() else {}
-    path.write_text(json.dumps(before | ended))
 
 
 def without_map(folder):
     """Leave a run as one of a network without a slow level."""
     (folder / "slow_state_map.csv").write_text("\n")
-    rows = json.loads((folder / "ended.json").read_text())["rows"]
-    write_end(folder, {"rows": rows | {"slow_state_map.csv": 0}})
+    list_anew(folder)
 
 
 def without_stage_2(folder):
@@ -202,6 +204,4 @@ def without_stage_2(folder):
     loops[loops["phase"] == 1].to_csv(folder / "loops.csv", index=False)
     development = pd.read_csv(folder / "development.csv")
     development[development["loop"] <= CHANGE].to_csv(folder / "development.csv", index=False)
-    ended = json.loads((folder / "ended.json").read_text())
-    del ended["rows"]
-    (folder / "ended.json").write_text(json.dumps(ended))
+    list_anew(folder)

@@ -1,7 +1,7 @@
 import json
 
 import pytest
-from invented_runs import CONDITIONS, write_run, write_settings
+from invented_runs import CONDITIONS, list_anew, write_run, write_settings
 
 from motionese.errors import RenderingError
 from motionese.experiment import read_settings
@@ -21,6 +21,7 @@ def eight_seeds(tmp_path_factory):
             write_run(root, condition, seed)
     write_settings(root, read_settings(overrides=["network.gain=3.25"]), preset="<mine>")
     (root / "environment.json").write_text(json.dumps({"python": "3.11", "jax": "0.9"}))
+    list_anew(root)
     return root
 
 

@@ -2,14 +2,15 @@
 
 import json
 
-import numpy as np
 import pandas as pd
 import pytest
-from invented_runs import CONDITIONS, STUDY, condition, without_map, write_end, write_settings
+from hypothesis import given
+from hypothesis import strategies as st
+from invented_runs import CONDITIONS, STUDY, condition, list_anew, without_map, write_settings
 
 from motionese.analysis.experiment_data import collect, leading_columns
 from motionese.analysis.facts import flat, read_facts
-from motionese.errors import RunFolderError, StorageError
+from motionese.errors import RunFolderError
 
 TD_MD, TND_MND = condition("TD/MD"), condition("TND/MND")
 LEADING_COLUMNS = leading_columns(STUDY)
@@ -33,6 +34,7 @@ def test_numbers_survive_to_the_last_bit(tmp_path, make_run):
     exact = 0.1 + 0.2
     table = pd.read_csv(folder / "loops.csv").assign(imitation_error_cm=exact)
     table.to_csv(folder / "loops.csv", index=False)
+    list_anew(folder)
     assert (collect(tmp_path).loops["imitation_error_cm"] == exact).all()
 
 
@@ -76,159 +78,43 @@ def test_no_ended_run(tmp_path, make_run):
         collect(tmp_path)
 
 
-def refused(folder, file, told):
+TABLES = [f"{name}.csv" for name in LEADING_COLUMNS]
+
+
+@pytest.mark.parametrize("name", [*TABLES, "inside.npz"])
+def test_a_lost_file(tmp_path, make_run, name):
+    path = make_run(tmp_path, TD_MD, 0) / name
+    path.unlink()
     with pytest.raises(RunFolderError) as caught:
-        collect(folder.parents[1])
-    sentence = str(caught.value)
-    assert file in sentence and told in sentence and "\n" not in sentence
-    assert "remove ended.json beside it, and the same `motionese reproduce` command" in sentence
-
-
-def without_row_counts(folder):
-    path = folder / "ended.json"
-    ended = json.loads(path.read_text())
-    del ended["rows"]
-    path.write_text(json.dumps(ended))
-
-
-TABLES = pytest.mark.parametrize("name", LEADING_COLUMNS)
-
-
-@TABLES
-def test_a_lost_table(tmp_path, make_run, name):
-    folder = make_run(tmp_path, TD_MD, 0)
-    (folder / f"{name}.csv").unlink()
-    refused(folder, f"{name}.csv", "is missing")
-
-
-@TABLES
-@pytest.mark.parametrize("counted", [True, False])
-@pytest.mark.parametrize(
-    ("damage", "told"),
-    [
-        (lambda whole: b"", "empty"),
-        (lambda whole: whole[: whole.index(b",", len(whole) // 2)], "cut short"),
-        (lambda whole: whole[:-1], "cut short"),
-        (lambda whole: b"\x00\xff\xfe\x93" * 50, "not a text"),
-        (lambda whole: whole + b"stray\n", "columns"),
-        (lambda whole: whole + b"\n", "columns"),
-        (lambda whole: whole.replace(b"\n", b",1,2\n").replace(b",1,2\n", b"\n", 1), "columns"),
-        (lambda whole: whole[: whole.index(b"\n") + 1], "no rows"),
-        (lambda whole: whole.replace(b"seed", b"sead", 1), "no column seed"),
-        (lambda whole: whole.replace(b"TD/MD,0,", b"TD/MD,x,", 1), "not every seed"),
-        (lambda whole: whole.replace(b"TD/MD,0,", b"TD/MD,7,", 1), "rows of another run"),
-        (lambda whole: whole.replace(b"TD/MD", b'"TD/MD', 1), "damaged"),
-    ],
-)
-def test_a_damaged_table(tmp_path, make_run, name, counted, damage, told):
-    folder = make_run(tmp_path, TD_MD, 0)
-    path = folder / f"{name}.csv"
-    path.write_bytes(damage(path.read_bytes()))
-    if not counted:
-        without_row_counts(folder)
-    refused(folder, path.name, told)
-
-
-@TABLES
-def test_a_table_that_lost_whole_lines(tmp_path, make_run, name):
-    folder = make_run(tmp_path, TD_MD, 0)
-    path = folder / f"{name}.csv"
-    lines = path.read_text().splitlines(keepends=True)
-    path.write_text("".join(lines[:-1]))
-    refused(folder, path.name, f"{len(lines) - 2} rows of {len(lines) - 1}")
-
-
-def test_a_stray_quote_does_not_swallow_rows(tmp_path, make_run):
-    folder = make_run(tmp_path, TD_MD, 0)
-    without_row_counts(folder)
-    path = folder / "loops.csv"
-    table = pd.read_csv(path)
-    table = table[[*table.columns.drop("press_depths_mm"), "press_depths_mm"]]
-    head, first, second, *others = table.to_csv(index=False).splitlines(keepends=True)
-    second = ',"'.join(second.rsplit(",", 1))
-    path.write_text("".join([head, first, second, *others]))
-    refused(folder, "loops.csv", "damaged")
-
-
-def test_a_map_of_no_points_where_there_were_some(tmp_path, make_run):
-    folder = make_run(tmp_path, TD_MD, 0)
-    (folder / "slow_state_map.csv").write_text("\n")
-    refused(folder, "slow_state_map.csv", "0 rows of")
-
-
-@pytest.mark.parametrize(
-    ("name", "column", "value"),
-    [
-        ("loops", "imitation_error_cm", "4..2"),
-        ("loops", "loop", None),
-        ("loops", "motion", None),
-        ("triples", "trained", "Fals"),
-        ("development", "rms_cs_to_cf", "?"),
-        ("slow_state_map", "direction_2_rad", "east"),
-    ],
-)
-def test_a_cell_that_is_not_what_its_column_holds(tmp_path, make_run, name, column, value):
-    folder = make_run(tmp_path, TD_MD, 0)
-    path = folder / f"{name}.csv"
-    table = pd.read_csv(path).astype({column: object})
-    table.loc[1, column] = value
-    table.to_csv(path, index=False)
-    refused(folder, path.name, f"not every {column} is one")
-
-
-def test_runs_of_before_rows_were_counted(tmp_path, make_run):
-    folder = make_run(tmp_path, TD_MD, 0)
-    counted = collect(tmp_path)
-    without_row_counts(folder)
-    pd.testing.assert_frame_equal(collect(tmp_path).loops, counted.loops)
-
-
-@pytest.mark.parametrize("text", ["[1]", "7", "{}", "null", "{", '{"reason": ""}', "\x00"])
-def test_an_end_that_tells_no_status(tmp_path, make_run, text):
-    folder = make_run(tmp_path, TD_MD, 0)
-    (folder / "ended.json").write_text(text)
-    with pytest.raises((RunFolderError, StorageError), match=r"ended\.json.*remove it"):
         collect(tmp_path)
+    again = "the same `motionese reproduce` command writes the tables again from the checkpoints"
+    assert str(caught.value) == f"{path} is missing: remove ended.json beside it, and {again}"
 
 
-@pytest.mark.parametrize("wrong", [{"status": 3}, {"seconds": "long"}, {"rows": [1]}])
-def test_an_end_of_another_shape(tmp_path, make_run, wrong):
-    write_end(make_run(tmp_path, TD_MD, 0), wrong)
-    with pytest.raises(RunFolderError, match=r"ended\.json does not tell how .* remove it"):
-        collect(tmp_path)
-
-
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda whole: b"",
-        lambda whole: whole[: len(whole) // 2],
-        lambda whole: whole[:100] + bytes(100) + whole[200:],
-        lambda whole: b"\x93NUMPY garbage",
-        lambda whole: b"no archive at all",
-    ],
-)
-def test_damaged_performances(tmp_path, make_run, damage):
-    path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
-    path.write_bytes(damage(path.read_bytes()))
-    with pytest.raises(RunFolderError, match=r"inside\.npz is damaged .*remove ended\.json"):
-        collect(tmp_path).inside("TD/MD", 0)
-
-
-def test_performances_that_lack_an_array(tmp_path, make_run):
-    path = make_run(tmp_path, TD_MD, 0) / "inside.npz"
-    np.savez(path, activity=np.zeros((2, 2)))
-    with pytest.raises(RunFolderError, match=r"no commanded, sensed, begins, poses"):
-        collect(tmp_path).inside("TD/MD", 0)
+@given(data=st.data())
+def test_any_byte_that_changed_is_told(eight_seeds, data):
+    folder = eight_seeds / "TND-MD" / "seed-3"
+    files = sorted(path for path in folder.iterdir() if path.stat().st_size)
+    path = data.draw(st.sampled_from(files))
+    whole = path.read_bytes()
+    place = data.draw(st.integers(0, len(whole) - 1))
+    other = data.draw(st.integers(0, 255).filter(lambda byte: byte != whole[place]))
+    path.write_bytes(whole[:place] + bytes([other]) + whole[place + 1 :])
+    try:
+        with pytest.raises(RunFolderError) as caught:
+            collect(eight_seeds)
+    finally:
+        path.write_bytes(whole)
+    assert f"{path} has changed since it was written: remove " in str(caught.value)
 
 
 def test_inside(tmp_path, make_run):
-    folder = make_run(tmp_path, TD_MD, 0)
+    make_run(tmp_path, TD_MD, 0)
     found = collect(tmp_path)
     arrays = found.inside("TD/MD", 0)
     assert arrays is not None and arrays["activity"].shape == (42, 48)
-    (folder / "inside.npz").unlink()
-    assert found.inside("TD/MD", 0) is None
+    make_run(tmp_path, TD_MD, 1, end="diverged")
+    assert found.inside("TD/MD", 1) is None
 
 
 def test_settings_of_the_folder(eight_seeds):
@@ -249,11 +135,12 @@ def test_a_folder_that_tells_no_settings_is_none(tmp_path):
 def test_broken_facts(tmp_path, text):
     write_settings(tmp_path)
     (tmp_path / "environment.json").write_text(text)
+    list_anew(tmp_path)
     with pytest.raises(RunFolderError, match=r"environment\.json: not a JSON object"):
         read_facts(tmp_path)
 
 
-OURS = {"format": "motionese-run", "version": 4}
+OURS = {"format": "motionese-run", "version": 5}
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import json
 import pandas as pd
 import pytest
 from invented_results import measures_table, write_reported
-from invented_runs import STUDY
+from invented_runs import STUDY, list_anew
 
 from motionese.analysis import keep, kept_results
 from motionese.analysis.kept import kept_runs
@@ -71,6 +71,8 @@ def test_what_cannot_be_kept_is_refused_and_nothing_is_written(tmp_path, results
     (again / "measures.csv").unlink()
     assert "again writes it" in refused([again], results)
     (again / "measures.csv").write_text("condition,seed,separation\nTD/MD,0,high\n")
+    list_anew(again)
     assert "again has no whole report" in refused([again], results)
     (again / "settings.json").write_text(json.dumps({}))
+    list_anew(again)
     assert "was not written by motionese" in refused([again], results)

@@ -1,18 +1,20 @@
 """The whole report on invented runs: complete, self-contained, the same every time."""
 
-import json
 import re
 import shutil
 
+import numpy as np
 import pandas as pd
 import pytest
-from invented_runs import STUDY, condition, without_map, without_stage_2, write_end, write_settings
+from invented_runs import STUDY, condition, list_anew, without_map, without_stage_2, write_settings
 from report_page import Page
 
 from motionese.analysis import write_report
-from motionese.analysis.experiment_data import ROLES
+from motionese.analysis.experiment_data import ROLES, collect
+from motionese.analysis.reported import read_reported
 from motionese.errors import RenderingError, RunFolderError
 from motionese.experiment import Study
+from motionese.experiment.digests import changed
 
 TD_MD, TND_MD = condition("TD/MD"), condition("TND/MD")
 TABLES = [
@@ -44,16 +46,14 @@ def no_gl():
 def whole(eight_seeds, tmp_path_factory, no_gl):
     folder = tmp_path_factory.mktemp("whole") / "mine"
     shutil.copytree(eight_seeds, folder)
-    told = []
-    report = write_report(folder, told.append)
-    return folder, report, told, Page(report.path.read_text())
+    report = write_report(folder)
+    return folder, report, Page(report.path.read_text())
 
 
 def test_report_and_tables_are_there(whole):
-    folder, report, told, _ = whole
+    folder, report, _ = whole
     assert report.path == folder / "report.html"
     assert report.runs == 32 and report.too_few == ""
-    assert told[0] == "32 of 32 runs have ended"
     for name in TABLES:
         assert len(pd.read_csv(folder / f"{name}.csv"))
     figures = {path.stem for path in (folder / "figures").glob("*.svg")}
@@ -64,7 +64,7 @@ def test_report_and_tables_are_there(whole):
 
 
 def test_the_page_fetches_nothing(whole):
-    text, page = whole[1].path.read_text(), whole[3]
+    text, page = whole[1].path.read_text(), whole[2]
     assert page.resources
     for resource in page.resources:
         assert resource.startswith(("#", "data:"))
@@ -75,7 +75,7 @@ def test_the_page_fetches_nothing(whole):
 
 
 def test_names_on_the_page_are_unique_and_links_lead_somewhere(whole):
-    page = whole[3]
+    page = whole[2]
     assert len(set(page.ids)) == len(page.ids)
     for resource in page.resources:
         if resource.startswith("#"):
@@ -83,7 +83,7 @@ def test_names_on_the_page_are_unique_and_links_lead_somewhere(whole):
 
 
 def test_the_page_tells_what_was_computed(whole):
-    text = whole[3].text
+    text = whole[2].text
     assert "Runs took different numbers of loops" not in text
     assert "When do clear primitives emerge" in text
     assert "yes in TD/MD (1.00); no in TD/MND" in text
@@ -98,12 +98,12 @@ def test_the_page_tells_what_was_computed(whole):
 
 
 def test_what_was_planned_is_not_asked_of_runs_of_other_settings(whole):
-    folder, _, _, page = whole
+    folder, _, page = whole
     assert not (folder / "findings.csv").exists() and "planned to be tested" not in page.text
 
 
 def test_a_lesson_that_asks_for_no_order_is_said_to_be_one(whole):
-    text = whole[3].text
+    text = whole[2].text
     assert "it asks for no memory of order, and of order there is nothing to exchange" in text
     assert "exchange: first stroke follows Cf₀ 1.00 [1.00, 1.00]" in text
     assert "exchange: order" not in text
@@ -207,14 +207,13 @@ def test_stages_that_ended_after_different_numbers_of_loops(tmp_path, make_run, 
     ended = loops.loc[loops["phase"] == 1, "loop"].max()
     shorter = loops[loops["loop"] != ended].assign(loop=lambda t: t["loop"] - (t["loop"] > ended))
     shorter.to_csv(table, index=False)
-    rows = json.loads((table.parent / "ended.json").read_text())["rows"]
-    write_end(table.parent, {"rows": rows | {"loops.csv": len(shorter)}})
+    list_anew(table.parent)
     page = Page(write_report(tmp_path).path.read_text())
     assert "Runs took different numbers of loops" in page.text
 
 
 def test_verdicts_on_several_parts_are_explained(whole):
-    assert "divided by the number of parts (Bonferroni)" in whole[3].text
+    assert "divided by the number of parts (Bonferroni)" in whole[2].text
 
 
 def test_a_folder_that_cannot_be_written_to(tmp_path, make_run, monkeypatch):
@@ -234,3 +233,42 @@ def test_no_run(tmp_path):
     write_settings(tmp_path)
     with pytest.raises(RunFolderError, match="no ended run"):
         write_report(tmp_path)
+
+
+@pytest.mark.slow
+def test_of_200_bytes_that_changed_anywhere_200_are_told(tmp_path, make_run, unrendered):
+    for seed in (0, 1):
+        make_run(tmp_path, TD_MD, seed)
+    write_report(tmp_path)
+    files = [path for path in sorted(tmp_path.rglob("*")) if path.is_file()]
+    sizes = np.array([path.stat().st_size for path in files], dtype=float)
+    rng, told = np.random.default_rng(0), 0
+    for path in rng.choice(np.array(files), 200, p=sizes / sizes.sum()):
+        whole = path.read_bytes()
+        content = bytearray(whole)
+        content[rng.integers(len(content))] ^= rng.integers(1, 256)
+        path.write_bytes(content)
+        try:
+            collect(tmp_path)
+            told += path in changed(tmp_path)  # and written anew
+        except RunFolderError as error:
+            told += f"{path} has changed since it was written" in str(error)
+        path.write_bytes(whole)
+    assert told == 200
+
+
+def test_what_had_changed_of_the_report_before_is_told_and_written_anew(
+    tmp_path, make_run, unrendered
+):
+    make_run(tmp_path, TD_MD, 3)
+    folder = tmp_path
+    assert write_report(folder).unlike == []
+    pictures = [folder / "figures" / "learning_curves.png", folder / "measures.csv"]
+    before = [path.read_bytes() for path in pictures]
+    for path, content in zip(pictures, before, strict=True):
+        path.write_bytes(content[:50] + b"!" + content[51:])
+    with pytest.raises(RunFolderError, match=r"measures\.csv has changed .* writes it again"):
+        read_reported(folder)
+    assert sorted(write_report(folder).unlike) == pictures
+    assert [path.read_bytes() for path in pictures] == before
+    assert read_reported(folder).seeds == [3]

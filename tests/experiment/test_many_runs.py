@@ -11,6 +11,7 @@ from distributed.scheduler import KilledWorker
 from small_runs import left_on_disk
 
 from motionese.experiment import condition_named, read_settings
+from motionese.experiment.digests import list_files
 from motionese.experiment.many_runs import Job, _failure, go_through_all, longest_first
 from motionese.experiment.run import Run
 
@@ -45,6 +46,7 @@ def test_one_that_cannot_go_on_does_not_keep_the_other_from_it(
     bad = Run(condition_named("TD/MD", small_settings.factors), 6, tmp_path / "bad")
     bad.folder.mkdir()
     (bad.folder / "loop-01.safetensors").write_bytes(b"cut short")
+    list_files(bad.folder, ["loop-01.safetensors"])
     heard = Heard()
     failures = heard.go_through_all([Job(run, small_settings) for run in (bad, good)], 2)
     (failure,) = failures
@@ -86,6 +88,8 @@ def test_what_is_left_is_ordered_so_that_the_longest_come_first(tmp_path, small_
         run.folder.mkdir(parents=True)
     (begun.folder / "loop-01.safetensors").touch()
     (ended.folder / "ended.json").write_text('{"status": "finished"}')
+    list_files(begun.folder, ["loop-01.safetensors"])
+    list_files(ended.folder, ["ended.json"])
     ordered = [job.run for job in longest_first([Job(run, small_settings) for run in runs])]
     assert len(ordered) == 11
     assert ended not in ordered

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from small_runs import SMALL, left_on_disk, stopped_after
+from small_runs import SMALL, StoppedError, left_on_disk, stopped_after
 
 from motionese.body import open_body
 from motionese.caregiver import ScriptedCaregiver
-from motionese.errors import StorageError
+from motionese.errors import RunFolderError, StorageError
 from motionese.experiment import Run, condition_named, go_through, read_settings
+from motionese.experiment.digests import list_files
 from motionese.task import PUSHING_BUTTONS
 
 TD_MD = condition_named("TD/MD", read_settings().factors)
@@ -31,7 +32,9 @@ def test_it_leaves_a_table_of_everything(undisturbed):
         "boundaries.csv",
         "inside.npz",
         "ended.json",
+        "SHA256SUMS",
     }
+    assert undisturbed["SHA256SUMS"] == undisturbed.keys() - {"SHA256SUMS"}
     assert len(undisturbed["loops.csv"]) == 5 + 4 + 4
     assert len(undisturbed["triples.csv"]) == 7
     assert len(undisturbed["slow_state_map.csv"]) == 5 * 2 * 2
@@ -70,23 +73,62 @@ def test_another_seed_ends_with_other_bits(tmp_path, small_settings, undisturbed
     assert other["loop-01.safetensors"] != undisturbed["loop-01.safetensors"]
 
 
-def test_with_a_cut_checkpoint_it_waits_for_its_removal(tmp_path, small_settings, undisturbed):
+def test_a_file_that_changed_is_told_and_made_again_as_is_said(
+    tmp_path, small_settings, undisturbed
+):
     run = Run(TD_MD, 5, tmp_path)
     stopped_after(run, small_settings, 2)
-    checkpoint = tmp_path / "loop-02.safetensors"
-    checkpoint.write_bytes(checkpoint.read_bytes()[:1000])
-    with pytest.raises(StorageError, match=r"loop-02\.safetensors: .*cut short"):
-        go_through(run, small_settings, lambda loop: None)
+    checkpoint, listing = tmp_path / "loop-02.safetensors", tmp_path / "SHA256SUMS"
+
+    def refused(what):
+        with pytest.raises(RunFolderError) as caught:
+            go_through(run, small_settings, lambda loop: None)
+        assert what in str(caught.value)
+
+    flip(checkpoint, -1)
+    refused(
+        "loop-02.safetensors has changed since it was written: remove it, the checkpoints of "
+        "later loops and ended.json, and the same `motionese reproduce` command repeats"
+    )
     checkpoint.unlink()
     go_through(run, small_settings, lambda loop: None)
     assert left_on_disk(tmp_path) == undisturbed
-
-
-def test_a_damaged_ending_is_told_with_what_to_do(tmp_path, small_settings):
-    run = Run(TD_MD, 5, tmp_path)
-    (tmp_path / "ended.json").write_text('{"status": "fin')
-    with pytest.raises(StorageError, match=r"ended\.json: cannot be read; remove it"):
+    for name in ("loops.csv", "ended.json"):
+        flip(tmp_path / name, 30)
+        refused(f"{name} has changed since it was written: remove ended.json beside it, and the")
+        (tmp_path / "ended.json").unlink()
         go_through(run, small_settings, lambda loop: None)
+        assert left_on_disk(tmp_path) == undisturbed
+    flip(listing, 30)
+    refused(f"{listing} has changed since it was written: remove {tmp_path}, and the same")
+
+
+def flip(path, place):
+    """Change one bit of a file."""
+    content = bytearray(path.read_bytes())
+    content[place] ^= 1
+    path.write_bytes(content)
+
+
+def test_what_a_killed_process_did_not_come_to_list_is_done_again(
+    tmp_path, small_settings, undisturbed, monkeypatch
+):
+    run = Run(TD_MD, 5, tmp_path)
+    stopped_after(run, small_settings, 2)
+
+    def killed(folder, names):
+        raise StoppedError
+
+    for done in (2, 3):
+        with monkeypatch.context() as patch, pytest.raises(StoppedError):
+            patch.setattr("motionese.experiment.run.list_files", killed)
+            go_through(run, small_settings, lambda loop: None)
+        assert (run.loops_done(), run.ended()) == (done, None)
+        if done == 2:
+            stopped_after(run, small_settings, 3)
+    assert (tmp_path / "ended.json").exists()
+    go_through(run, small_settings, lambda loop: None)
+    assert left_on_disk(tmp_path) == undisturbed
 
 
 @pytest.mark.parametrize(
@@ -114,15 +156,9 @@ def test_a_checkpoint_under_another_loop_s_name_is_refused(tmp_path, small_setti
     stopped_after(run, small_settings, 1)
     path = tmp_path / "loop-01.safetensors"
     path.with_name("loop-02.safetensors").write_bytes(path.read_bytes())
+    list_files(tmp_path, ["loop-02.safetensors"])
     with pytest.raises(StorageError, match="a checkpoint of loop 1 of TD/MD"):
         go_through(run, small_settings, print)
-
-
-@pytest.mark.parametrize("content", ["[1]", "7", "{}", "", "{"])
-def test_an_ending_that_is_none_is_refused(tmp_path, content):
-    (tmp_path / "ended.json").write_text(content)
-    with pytest.raises(StorageError, match="remove it, and the run is evaluated again"):
-        Run(TD_MD, 5, tmp_path).ended()
 
 
 @pytest.mark.slow

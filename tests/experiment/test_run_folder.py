@@ -28,6 +28,9 @@ def settings():
     return read_settings()
 
 
+LISTED = ("settings.json", "environment.json")
+
+
 def opened(path, settings):
     with open_run_folder(path, settings, "default") as folder:
         return folder
@@ -46,12 +49,12 @@ def test_a_new_folder_tells_settings_and_environment(tmp_path, settings):
     path = tmp_path / "runs" / "first"
     opened(path, settings)
     facts = json.loads((path / "settings.json").read_text())
-    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 4, "default")
+    assert (facts["format"], facts["version"], facts["preset"]) == ("motionese-run", 5, "default")
     assert facts["settings"] == settings.model_dump(mode="json") == run_settings(path)
     made_with = json.loads((path / "environment.json").read_text())
     assert made_with["python"] == sys.version.split()[0]
     assert {"jax", "numpy", "mujoco-core", "motionese", "machine", "cores"} <= made_with.keys()
-    assert {p.name for p in path.iterdir()} <= {"settings.json", "environment.json", ".lock"}
+    assert {p.name for p in path.iterdir()} <= {*LISTED, "SHA256SUMS", ".lock"}
 
 
 def test_a_run_has_a_folder_of_its_own(tmp_path, settings):
@@ -94,8 +97,8 @@ def test_a_folder_that_is_not_ours_is_left_alone(tmp_path, settings):
         ("[]", "not written by motionese"),
         ('{"format": "motionese-run"', "cannot be read"),
         ('{"format": "motionese-run", "version": 1, "settings": {}}', "format 1"),
-        ('{"format": "motionese-run", "version": 4}', "holds no settings"),
-        ('{"format": "motionese-run", "version": 4, "settings": 5}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 5}', "holds no settings"),
+        ('{"format": "motionese-run", "version": 5, "settings": 5}', "holds no settings"),
     ],
 )
 def test_settings_that_are_not_ours_are_refused(tmp_path, settings, content, told):
@@ -174,10 +177,18 @@ def test_other_versions_are_told_and_kept_on_record(tmp_path, settings, monkeypa
     assert now == {**first, "changed": [f"jax: {first['jax']} → 99.0"]}
 
 
-def test_a_damaged_environment_is_refused(tmp_path, settings):
+@pytest.mark.parametrize("name", [*LISTED, "SHA256SUMS"])
+def test_a_byte_that_changed_is_told_and_put_right_by_what_is_said(tmp_path, settings, name):
     opened(tmp_path, settings)
-    (tmp_path / "environment.json").write_text("{")
-    assert "environment.json cannot be read" in refused(tmp_path, settings)
+    path = tmp_path / name
+    whole = path.read_bytes()
+    path.write_bytes(whole[:20] + bytes([whole[20] ^ 1]) + whole[21:])
+    sentence = refused(tmp_path, settings)
+    again = "remove it, and the same `motionese reproduce` command writes it again"
+    assert sentence == f"{path} has changed since it was written: {again}"
+    path.unlink()
+    opened(tmp_path, settings)
+    assert path.read_bytes() == whole
 
 
 def test_no_folder_and_no_run_folder_are_told_apart(tmp_path):

@@ -13,12 +13,11 @@ from numpy import ndarray
 from motionese.analysis.directions import true_strokes
 from motionese.analysis.facts import Facts, read_facts
 from motionese.analysis.map_numbers import map_numbers
-from motionese.analysis.run_files import read_end, read_inside, read_table
 from motionese.analysis.style import Look, looks_of
 from motionese.body import SimulatedRobot, open_body
 from motionese.errors import RunFolderError
 from motionese.experiment import Run, Study, condition_named
-from motionese.experiment.run import runs_in
+from motionese.experiment.run import INSIDE, runs_in
 from motionese.task import Task
 
 MAP = "slow_state_map"
@@ -132,10 +131,13 @@ class ExperimentData:
         return map_numbers(self.slow_state_map, self.development, self.study, self.strokes)
 
     def inside(self, condition: str, seed: int) -> dict[str, ndarray] | None:
-        """Return what was kept of a run's performances, or None; `RunFolderError` if damaged."""
+        """Return what was kept of a run's performances; None of one that diverged."""
         of = condition_named(condition, self.study.factors)
-        path = self.folder / of.folder / f"seed-{seed}" / "inside.npz"
-        return read_inside(path) if path.is_file() else None
+        path = self.folder / of.folder / f"seed-{seed}" / INSIDE
+        if not path.is_file():
+            return None
+        with np.load(path, allow_pickle=False) as kept:
+            return dict(kept)
 
 
 def collect(folder: Path) -> ExperimentData:
@@ -143,13 +145,15 @@ def collect(folder: Path) -> ExperimentData:
 
     Raises:
         RunFolderError: There is no such folder, its settings are not of this version, it has no
-            ended run, or a table of one is missing or damaged.
-        StorageError: How a run ended cannot be read.
+            ended run, or a file of one is missing or has changed since it was written.
     """
     if not folder.is_dir():
         raise RunFolderError(f"{folder}: there is no such run folder")
     facts = read_facts(folder)
-    runs = [(run, read_end(run)) for run in runs_in(folder, facts.study)]
+    runs = []
+    for run in runs_in(folder, facts.study):
+        run.check()
+        runs.append((run, run.ended()))
     ended = [(run, end) for run, end in runs if end is not None]
     if not ended:
         raise RunFolderError(
@@ -179,7 +183,7 @@ def _how_it_ended(run: Run, end: dict[str, Any] | None) -> dict[str, Any]:
 def _together(
     name: str, leading: list[str], ended: list[tuple[Run, dict[str, Any]]]
 ) -> pd.DataFrame:
-    read = [_table(run, end, name, leading) for run, end in ended]
+    read = [_table(run, end, name) for run, end in ended]
     filled = [table for table in read if len(table)]
     if not filled:
         return pd.DataFrame(columns=leading)
@@ -188,10 +192,10 @@ def _together(
     return table.reindex(columns=[*leading, *others])
 
 
-def _table(run: Run, end: dict[str, Any], name: str, leading: list[str]) -> pd.DataFrame:
-    evaluated = name not in ("loops", "development")
-    if end["status"] == "diverged" and evaluated:
+def _table(run: Run, end: dict[str, Any], name: str) -> pd.DataFrame:
+    if end["status"] == "diverged" and name not in ("loops", "development"):
         return pd.DataFrame()
-    rows = end.get("rows", {}).get(f"{name}.csv")
-    # A network without a slow level has no map, and a set of lessons alone nothing new.
-    return read_table(run, name, leading, rows, may_be_empty=evaluated)
+    try:
+        return pd.read_csv(run.folder / f"{name}.csv")
+    except pd.errors.EmptyDataError:  # e.g. no map, of a network without a slow level
+        return pd.DataFrame()

@@ -8,6 +8,7 @@ from typing import Any
 
 from motionese.errors import RunFolderError, SettingError
 from motionese.experiment import Study
+from motionese.experiment.digests import DIGESTS
 from motionese.experiment.presets import study_of
 from motionese.experiment.run_folder import ENVIRONMENT, SETTINGS, run_settings
 
@@ -25,7 +26,8 @@ def read_facts(folder: Path) -> Facts:
     """Read `settings.json`, and `environment.json` if it is there, of a run folder.
 
     Raises:
-        RunFolderError: One of them is damaged, there are no settings, or not of this version.
+        RunFolderError: One of them has changed since it was written or cannot be read, there are
+            no settings, or not of this version.
     """
     try:
         study = study_of(run_settings(folder))
@@ -33,6 +35,10 @@ def read_facts(folder: Path) -> Facts:
         raise RunFolderError(
             f"{folder / SETTINGS} does not fit this version of motionese: {error}"
         ) from error
+    if not (folder / DIGESTS).is_file():
+        raise RunFolderError(
+            f"{folder} has no {DIGESTS}: the same `motionese reproduce` command writes it again"
+        )
     record = _json(folder / SETTINGS)
     record.pop("settings", None)
     return Facts(study, record, _json(folder / ENVIRONMENT))

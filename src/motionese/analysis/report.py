@@ -1,6 +1,6 @@
 """The report: one page that shows what came of the runs, and the tables it was drawn from."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,7 +24,8 @@ from motionese.analysis.seed_measures import Measures, measured
 from motionese.analysis.statistics import check_seeds
 from motionese.analysis.verdicts import claims_table, judge
 from motionese.errors import RunFolderError, TooFewSeedsError
-from motionese.experiment.run_folder import REPORT
+from motionese.experiment import digests
+from motionese.experiment.run_folder import ENVIRONMENT, REPORT, SETTINGS
 from motionese.files import write_whole
 
 
@@ -32,30 +33,29 @@ from motionese.files import write_whole
 class Report:
     """The page that was written, and how many ended runs it is about.
 
-    `too_few` says why tests could not be made for want of seeds, or "".
+    Attributes:
+        too_few: Why tests could not be made for want of seeds, or "".
+        unlike: Files of the report before that had changed since they were written.
     """
 
     path: Path
     runs: int
     too_few: str
+    unlike: list[Path]
 
 
-def write_report(run_folder: Path, told: Callable[[str], None] | None = None) -> Report:
+def write_report(run_folder: Path) -> Report:
     """Write `report.html`, the tables and the figures of a run folder into it.
 
     Runs that diverged or have not ended are listed, not tested; with too few seeds for a test
-    everything else is written, and the report returned says so. `told` is called with a line about
-    each step.
+    everything else is written, and the report returned says so.
 
     Raises:
         RunFolderError: There is no ended run in it, a file in it is damaged, or it cannot be
             written to.
-        StorageError: How a run ended cannot be read.
     """
-    tell = told or (lambda line: None)
     data = collect(run_folder)
     ended = int((data.runs["status"] != "unfinished").sum())
-    tell(f"{ended} of {len(data.runs)} runs have ended")
     study = data.study
     numbers, by_seed = data.map_numbers, seed_table(data)
     measures = measured(data, numbers)
@@ -75,16 +75,19 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
     tables |= {"changes": changed} if changed is not None else {}
     tables |= {"claims": claims_table(results)} if results else {}
     tables |= {"findings": findings_table(tested)} if tested else {}
+    unlike = [file for file in digests.changed(run_folder) if file.exists()]
+    written = [f"{name}.csv" for name in tables]
     try:
+        digests.list_only(run_folder, [SETTINGS, ENVIRONMENT])
         for name, table in tables.items():
             text = table.to_csv(index=False, lineterminator="\n")
             write_whole(run_folder / f"{name}.csv", text)
         drawn = []
         (run_folder / "figures").mkdir(exist_ok=True)
         for each in figures(data, measures, by_seed, changed):
-            tell(f"figure {each.name}")
             write_whole(run_folder / "figures" / f"{each.name}.svg", each.drawing.svg)
             write_whole(run_folder / "figures" / f"{each.name}.png", each.drawing.png)
+            written += [f"figures/{each.name}.svg", f"figures/{each.name}.png"]
             drawn.append(each)
         too_few = _too_few(measures, list(data.looks))
         path = run_folder / REPORT
@@ -92,12 +95,12 @@ def write_report(run_folder: Path, told: Callable[[str], None] | None = None) ->
             data, measures, by_seed, found, changed, results, tested, sentences, drawn, too_few
         )
         write_whole(path, text)
+        digests.list_files(run_folder, [*written, REPORT])
     except OSError as error:
         raise RunFolderError(
             f"{error.filename or run_folder} cannot be written: {error.strerror}"
         ) from error
-    tell(f"report {path}")
-    return Report(path, ended, too_few)
+    return Report(path, ended, too_few, unlike)
 
 
 def _too_few(measures: Measures, names: Sequence[str]) -> str:

@@ -9,6 +9,7 @@ import pandas as pd
 from motionese.analysis.facts import read_facts
 from motionese.errors import RunFolderError
 from motionese.experiment import Study
+from motionese.experiment.digests import changed, told
 
 MEASURES, RUNS = "measures.csv", "runs.csv"
 ENDS = ["condition", "seed", "loops", "seconds", "status", "reason"]
@@ -42,9 +43,12 @@ def read_reported(folder: Path) -> Reported:
     """Read what stands beside the report of a run folder.
 
     Raises:
-        RunFolderError: It is no run folder, or has no report of this version.
+        RunFolderError: It is no run folder, has no report of this version, or one that has changed.
     """
     facts = read_facts(folder)
+    for table in changed(folder):
+        if table.name in (MEASURES, RUNS):
+            raise RunFolderError(f"{told(table)}; motionese report {folder} writes it again")
     preset = Path(str(facts.record.get("preset", ""))).stem
     version = str(facts.environment.get("motionese", ""))
     try:

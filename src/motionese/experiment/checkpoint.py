@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motionese.errors import StorageError
+from motionese.experiment.digests import listed_and_there
 from motionese.imitation import Learner, Row, read_learner, write_learner
 
 
@@ -58,13 +59,22 @@ def read_checkpoint(path: Path, origin: str) -> Checkpoint:
     return checkpoint
 
 
-def read_checkpoints(folder: Path, origin: str) -> list[Checkpoint]:
+def checkpoints_in(folder: Path) -> list[Path]:
     """Return the checkpoints of all whole loops of a run, in order.
+
+    Raises:
+        StorageError: The list of the folder's files has changed since it was written.
+    """
+    return listed_and_there(folder, "loop-*.safetensors")
+
+
+def read_checkpoints(folder: Path, origin: str) -> list[Checkpoint]:
+    """Return what the checkpoints of all whole loops of a run hold, in order.
 
     Raises:
         StorageError: One is missing before the last, or cannot be read.
     """
-    loops = len(list(folder.glob("loop-*.safetensors")))
+    loops = len(checkpoints_in(folder))
     paths = [checkpoint_path(folder, loop) for loop in range(1, loops + 1)]
     missing = [path for path in paths if not path.exists()]
     if missing:

@@ -1,7 +1,8 @@
 """One run, a condition with a seed: babbling, the loops of all stages, evaluation.
 
 A run is a function of settings, condition and seed. It writes a checkpoint after every loop; one
-that was stopped, or killed, goes on from its last whole loop and ends with the same bits.
+that was stopped, or killed, goes on from its last whole loop and ends with the same bits. Its
+folder lists the digests of its files.
 """
 
 import csv
@@ -15,9 +16,16 @@ from pathlib import Path
 
 import numpy as np
 
-from motionese.errors import StorageError
-from motionese.experiment.checkpoint import Checkpoint, read_checkpoints, write_checkpoint
+from motionese.errors import RunFolderError, StorageError
+from motionese.experiment.checkpoint import (
+    Checkpoint,
+    checkpoint_path,
+    checkpoints_in,
+    read_checkpoints,
+    write_checkpoint,
+)
 from motionese.experiment.conditions import Condition
+from motionese.experiment.digests import changed, list_files, listed, told
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 from motionese.imitation import (
@@ -44,9 +52,10 @@ from motionese.imitation import (
     switched,
 )
 
-ENDED = "ended.json"
+ENDED, INSIDE = "ended.json", "inside.npz"
 EMERGED = "emerged_"
 """Columns of `development.csv` begin so that tell how much has emerged in a level."""
+AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 
 @dataclass(frozen=True)
@@ -74,22 +83,51 @@ class Run:
 
     def loops_done(self) -> int:
         """Return the number of its last whole loop, 0 before the first."""
-        return len(list(self.folder.glob("loop-*.safetensors")))
+        return len(checkpoints_in(self.folder))
 
     def ended(self) -> Row | None:
         """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not.
 
         Raises:
-            StorageError: The file that tells it cannot be read.
+            StorageError: The file that tells it cannot be read, or has changed.
         """
         path = self.folder / ENDED
+        if not path.is_file() or ENDED not in listed(self.folder):
+            return None
         try:
-            ended = json.loads(path.read_text()) if path.is_file() else None
-        except (OSError, ValueError, RecursionError):
-            ended = {}
-        if ended is not None and not (isinstance(ended, dict) and "status" in ended):
-            raise StorageError(f"{path}: cannot be read; remove it, and the run is evaluated again")
-        return ended
+            return dict(json.loads(path.read_text()))
+        except (OSError, ValueError, TypeError, RecursionError) as error:
+            raise StorageError(f"{path} cannot be read: remove it, and {AGAIN}") from error
+
+    def check(self) -> None:
+        """Check that its files are what was written.
+
+        Checkpoints may be missing, and tables too while the run has not ended.
+
+        Raises:
+            RunFolderError: One has changed; the text says how it is made again.
+        """
+        try:
+            found, checkpoints = changed(self.folder), checkpoints_in(self.folder)
+        except StorageError as error:
+            raise RunFolderError(
+                f"{error}: remove {self.folder}, and the same `motionese reproduce` command makes "
+                "the run again"
+            ) from error
+        ended = (self.folder / ENDED).exists()
+        found = [
+            path
+            for path in found
+            if path in checkpoints or (ended and path.suffix != checkpoint_path(path, 1).suffix)
+        ]
+        if found:
+            what = f"remove {ENDED} beside it, and {AGAIN}"
+            if found[0] in checkpoints:
+                what = (
+                    f"remove it, the checkpoints of later loops and {ENDED}, and the same "
+                    "`motionese reproduce` command repeats these loops"
+                )
+            raise RunFolderError(f"{told(found[0])}: {what}")
 
 
 def runs_in(folder: Path, settings: Study, shown: str = "") -> list[Run]:
@@ -118,8 +156,10 @@ def go_through(
         recordings: Demonstrations that are shown in the place of scripted ones.
 
     Raises:
-        StorageError: A checkpoint that is cut short, or of another run or other settings.
+        RunFolderError: One of its files has changed since it was written.
+        StorageError: A checkpoint that is missing, or of another run or other settings.
     """
+    run.check()
     ended = run.ended()
     if ended:
         return ended
@@ -135,6 +175,7 @@ def go_through(
             break
         loops.append(_loop(course, stage, done, loops[-1] if loops else None))
         write_checkpoint(run.folder, loops[-1], scene.body.rate_hz)
+        list_files(run.folder, [checkpoint_path(run.folder, loops[-1].loop).name])
         loop_done(loops[-1].loop)
     return _finish(run, scene, course.development.stages, loops)
 
@@ -228,17 +269,18 @@ def _finish(run: Run, scene: Scene, stages: tuple[Stage, ...], loops: list[Check
         kept = _evaluated(scene, stages, last.learner, tables)
         content = io.BytesIO()
         np.savez_compressed(content, allow_pickle=False, **kept)
-        write_whole(run.folder / "inside.npz", content.getvalue())
+        write_whole(run.folder / INSIDE, content.getvalue())
     who = {"condition": run.condition.name, "seed": run.seed}
     for name, rows in tables.items():
         write_table(run.folder / name, [{**who, **row} for row in rows])
     ended = {
         "status": "diverged" if last.failure else "finished",
         "reason": last.failure,
-        "rows": {name: len(rows) for name, rows in tables.items()},
         "seconds": round(last.seconds + time.perf_counter() - began, 2),
     }
     write_whole(run.folder / ENDED, json.dumps(ended, indent=1))
+    inside = [] if last.failure else [INSIDE]
+    list_files(run.folder, [*tables, *inside, ENDED])
     return ended
 
 

@@ -14,15 +14,16 @@ from typing import Any, NamedTuple
 
 from filelock import FileLock, Timeout
 
-from motionese.errors import RunFolderError
+from motionese.errors import RunFolderError, StorageError
 from motionese.experiment.conditions import Condition
+from motionese.experiment.digests import DIGESTS, changed, list_files, told
 from motionese.experiment.environment import environment
 from motionese.experiment.presets import differences
 from motionese.experiment.run import Run
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 
-FORMAT, VERSION = "motionese-run", 4
+FORMAT, VERSION = "motionese-run", 5
 SETTINGS, ENVIRONMENT = "settings.json", "environment.json"
 LOCK, HOLDER = ".lock", ".lock-holder"
 REPORT = "report.html"
@@ -132,7 +133,9 @@ def _begun(opening: Opening) -> RunFolder:
             facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
             facts |= {"demonstrations": shown} if shown else {}
             write_whole(path / SETTINGS, json.dumps(facts, indent=1))
-        return RunFolder(path, _record_environment(path), shown)
+        now_other = _record_environment(path)
+        list_files(path, [SETTINGS, ENVIRONMENT])
+        return RunFolder(path, now_other, shown)
     except OSError as error:
         raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
 
@@ -160,6 +163,7 @@ def run_settings(path: Path) -> Facts:
         raise RunFolderError(f"{path} is no run folder: {what}")
     if not (path / SETTINGS).is_file():
         raise RunFolderError(f"{path} is no run folder: it has no {SETTINGS}")
+    _check_unchanged(path)
     facts = _facts(path / SETTINGS)
     if facts.get("format") != FORMAT:
         raise RunFolderError(f"{path / SETTINGS} was not written by motionese")
@@ -171,6 +175,17 @@ def run_settings(path: Path) -> Facts:
     if not isinstance(facts.get("settings"), dict):
         raise RunFolderError(f"{path / SETTINGS} holds no settings; it was changed by hand")
     return dict(facts["settings"])
+
+
+def _check_unchanged(path: Path) -> None:
+    """Refuse a folder whose settings, or what they were run with, are not what was written."""
+    again = "remove it, and the same `motionese reproduce` command writes it again"
+    try:
+        found = [file for file in changed(path) if file.name in (SETTINGS, ENVIRONMENT)]
+    except StorageError as error:
+        raise RunFolderError(f"{error}: {again}") from error
+    if found and found[0].exists():
+        raise RunFolderError(f"{told(found[0])}: {again}")
 
 
 def run_demonstrations(path: Path) -> str:
@@ -190,7 +205,7 @@ def _check_ours(path: Path) -> None:
     names = _names_in(path)
     # A process may have been killed before it wrote the settings.
     foreign = [n for n in names if n not in (LOCK, HOLDER) and not n.endswith(".part")]
-    if SETTINGS not in names and foreign:
+    if not {SETTINGS, DIGESTS} & set(names) and foreign:
         raise RunFolderError(
             f"{path} is not empty and no run folder (it has no {SETTINGS}); choose another"
         )

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
-from invented_runs import condition, without_map
+from invented_runs import condition, list_anew, without_map
 from matplotlib.colors import to_hex
 
 from motionese.analysis.experiment_data import collect
@@ -79,7 +79,7 @@ def test_runs_that_were_not_examined(tmp_path, make_run):
     make_run(tmp_path, condition("TND/MD"), 0, end="diverged")
     for name in ("exchanges", "lesions", "decoding", "symbols"):
         (folder / f"{name}.csv").write_text("\n")
-    (folder / "ended.json").write_text('{"status": "finished"}')
+    list_anew(folder)
     data = collect(tmp_path)
     assert list(drawn(data, seed_table(data))) == ["recall"]
 

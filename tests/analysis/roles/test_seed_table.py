@@ -2,7 +2,7 @@
 
 import pandas as pd
 import pytest
-from invented_runs import STUDY, condition, without_map
+from invented_runs import STUDY, condition, list_anew, without_map
 
 from motionese.analysis.experiment_data import collect
 from motionese.analysis.roles import seed_table
@@ -68,6 +68,7 @@ def test_recall_at_the_ends_of_stages(table):
 def test_errors_with_only_the_slow_level_sought(tmp_path, make_run):
     path = make_run(tmp_path, condition("TD/MD"), 0) / "triples.csv"
     pd.read_csv(path).assign(slow_alone_imitation_error_cm=7.0).to_csv(path, index=False)
+    list_anew(path.parent)
     assert seed_table(collect(tmp_path))["untrained_slow_alone_cm"].to_list() == [7.0]
 
 

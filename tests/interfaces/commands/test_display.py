@@ -7,6 +7,7 @@ import pytest
 from rich.console import Console
 
 from motionese.experiment import Condition
+from motionese.experiment.digests import list_files
 from motionese.experiment.many_runs import Job
 from motionese.experiment.run import Run
 from motionese.interfaces.commands import display as module
@@ -20,6 +21,8 @@ def runs(tmp_path):
         run.folder.mkdir()
     (runs[1].folder / "loop-01.safetensors").touch()
     (runs[2].folder / "ended.json").write_text('{"status": "diverged"}')
+    list_files(runs[1].folder, ["loop-01.safetensors"])
+    list_files(runs[2].folder, ["ended.json"])
     return runs
 
 

@@ -8,6 +8,7 @@ from invented_runs import write_settings
 from small_runs import SMALL
 
 from motionese.experiment import read_settings
+from motionese.experiment.digests import list_files
 from motionese.experiment.presets import preset_text
 from motionese.experiment.run_folder import open_run_folder
 from motionese.interfaces.commands import reproduce as module
@@ -29,6 +30,7 @@ def pretend(monkeypatch):
                 if status:
                     job.run.folder.mkdir(parents=True)
                     (job.run.folder / "ended.json").write_text(json.dumps({"status": status}))
+                    list_files(job.run.folder, ["ended.json"])
                 run_ended(job, "")
             return list(failures)
 
@@ -126,6 +128,7 @@ def test_other_versions_are_told(command, pretend, here):
     command(*COMMAND)
     file = here / "out" / "environment.json"
     file.write_text(json.dumps({**json.loads(file.read_text()), "jax": "0.0.1"}))
+    list_files(file.parent, [file.name])
     _, output, _ = command(*COMMAND)
     assert "This folder was begun with other versions (jax: 0.0.1 → " in output
 

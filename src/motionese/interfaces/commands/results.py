@@ -33,6 +33,8 @@ def write_results(folder: Path, console: Console) -> str:
 
     with console.status("Writing the report …"):
         written = write_report(folder)
+    for path in written.unlike:
+        console.print(f"{path} had changed since it was written; it is written anew.")
     console.print(summary(written.path.parent, study))
     console.print(f"Report: {written.path}")
     return str(written.too_few)
