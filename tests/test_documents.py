@@ -44,9 +44,11 @@ def shown(page, pattern):
     return re.findall(pattern, page.read_text(), re.MULTILINE)
 
 
-def pages_that_show(pattern, but=()):
+def pages_that_show(pattern, but=(), slow=()):
+    pages = [page for page in PAGES if page not in but and shown(page, pattern)]
+    late = {page: pytest.mark.slow if called(page) in slow else () for page in pages}
     return pytest.mark.parametrize(
-        "page", [page for page in PAGES if page not in but and shown(page, pattern)], ids=called
+        "page", [pytest.param(page, marks=late[page], id=called(page)) for page in pages]
     )
 
 
@@ -55,7 +57,7 @@ def test_pages_show_what_they_are_tested_for(pattern):
     assert set(SHOWN[pattern]) <= {called(page) for page in PAGES if shown(page, pattern)}
 
 
-@pages_that_show(PYTHON, but=[TUTORIAL])
+@pages_that_show(PYTHON, but=[TUTORIAL], slow=["docs/extending.md", "docs/first_steps.md"])
 def test_snippets_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names = {}

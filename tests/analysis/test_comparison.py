@@ -161,6 +161,7 @@ def test_where_it_cannot_be_written_is_told(kept, own, tmp_path):
         write_comparison([own / "order"], tmp_path / "file" / "report.html")
 
 
+@pytest.mark.slow
 def test_what_was_no_setting_yet_is_told_only_where_it_is_used(results, tmp_path, monkeypatch):
     older = tmp_path / "older"
     shutil.copytree(results, older)

@@ -110,6 +110,7 @@ def test_a_lesson_that_asks_for_no_order_is_said_to_be_one(whole):
     assert "True by construction" in text and "all motions share one Cf₀" in text
 
 
+@pytest.mark.slow
 def test_runs_of_the_plan(orderly, tmp_path, unrendered):
     folder = tmp_path / "orderly"
     shutil.copytree(orderly, folder)
@@ -178,6 +179,7 @@ def test_nothing_but_a_diverged_run(tmp_path, make_run):
     assert write_report(tmp_path).runs == 2
 
 
+@pytest.mark.slow
 def test_a_network_without_a_slow_level(tmp_path, make_run, unrendered):
     folder = make_run(tmp_path, TD_MD, 0)
     without_map(folder)
@@ -257,6 +259,7 @@ def test_of_200_bytes_that_changed_anywhere_200_are_told(tmp_path, make_run, unr
     assert told == 200
 
 
+@pytest.mark.slow
 def test_what_had_changed_of_the_report_before_is_told_and_written_anew(
     tmp_path, make_run, unrendered
 ):

@@ -116,6 +116,7 @@ def functions(model, folder):
     }
 
 
+@pytest.mark.slow
 def test_what_is_not_taken_is_refused_by_a_sentence(model, tmp_path, unchecked, monkeypatch):
     monkeypatch.chdir(tmp_path)
     mo.save(tmp_path / "fit.safetensors", FIT)

@@ -26,6 +26,7 @@ def folder(tmp_path_factory, small_settings):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", ["TD-MD/seed-5", "TD-MD/5", "TD/MD/5", "td-md", "TD-MD"])
 def test_a_run_is_asked_for_by_condition_and_seed(folder, small_settings, asked):
     robot = robot_of(folder / asked)

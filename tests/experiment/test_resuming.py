@@ -55,6 +55,7 @@ def test_what_was_a_lesson_as_a_whole_is_nowhere_new(tmp_path):
     assert {row["motion"] for row in left["online.csv"] if row["taught"] == "False"} == new
 
 
+@pytest.mark.slow
 def test_stopped_after_every_loop_it_ends_with_the_same_bits(tmp_path, small_settings, undisturbed):
     run = Run(TD_MD, 5, tmp_path)
     assert (run.loops_done(), run.ended()) == (0, None)

@@ -25,6 +25,7 @@ def scene():
     return Scene(read_settings(overrides=SMALL, quick=True), seed=3)
 
 
+@pytest.mark.slow
 def test_it_is_a_share_that_depends_on_learner_and_loop_alone(scene):
     learner = babbled(scene, newborn(scene, 3))
     shares = {level: share_emerged(scene, learner, LESSON, level, 4) for level in ("cf", "cs")}

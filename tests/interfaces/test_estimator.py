@@ -135,6 +135,7 @@ def test_an_array_of_motions_gives_one_back(fitted, shown):
     np.testing.assert_allclose(paths, np.stack(fitted.predict(list(motions))), atol=1e-6)
 
 
+@pytest.mark.slow
 def test_one_motion_gives_one_path_and_a_table_its_names(shown):
     frame = pd.DataFrame(shown[0], columns=["a", "b", "c"])
     named = MTRNNImitator("4:4", epochs=5, observed=["a", "c"], recognition=HASTY).fit(frame)

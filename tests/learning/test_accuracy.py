@@ -33,6 +33,7 @@ def test_shares_of_range_leave_out_what_is_not_known():
     assert np.isnan(share_of_range(np.zeros((0, 2)), CHANNELS))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("forced", [0.0, 1.0])
 def test_the_errors_of_a_fit_are_those_of_its_network(fit, motions, forced):
     told = fit.teacher_forced_error if forced else fit.closed_loop_error

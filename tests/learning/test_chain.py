@@ -16,6 +16,7 @@ def of(fit, order):
     return [fit.initial_states[i] for i in order], [fit.lengths[i] for i in order]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [*permutations(range(3))])
 def test_there_is_no_jump_and_every_motion_is_reached(fit, motions, order):
     states, steps = of(fit, order)

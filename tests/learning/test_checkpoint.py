@@ -60,6 +60,7 @@ def interrupted(path, *arguments, after=2, **given):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "held_out"),
     [

@@ -159,6 +159,7 @@ def test_generation_equals_a_closed_loop_by_hand(float64, first):
     np.testing.assert_allclose(generate(net, state, 9, first=first), expected, rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_level_that_is_slower_moves_by_so_much_less(float64):
     net, _ = drawn(3, learned_bias=True, initial_io="sensed")
     motions, _ = ragged()

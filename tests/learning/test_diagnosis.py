@@ -164,7 +164,7 @@ TRUE = {
 
 
 @pytest.mark.parametrize("why", TRUE)
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_the_reason_is_told(why, seed):
     motions, levels, epochs, settings, told = TRUE[why]
     found = diagnosed(motions, levels, epochs, seed, **settings)

@@ -45,6 +45,7 @@ def noisy():
     return train(net, motions, settings=chosen), motions, deviation
 
 
+@pytest.mark.slow
 def test_the_variance_of_known_noise_is_learned(noisy):
     fit, motions, deviation = noisy
     y = activity(fit.network, fit.initial_states, 30, first=np.array(motions.values)[:, 0])
@@ -53,6 +54,7 @@ def test_the_variance_of_known_noise_is_learned(noisy):
     np.testing.assert_allclose(np.log(learned[3:]), np.log(deviation[3:]), atol=np.log(1.35))
 
 
+@pytest.mark.slow
 def test_recognition_trusts_what_is_predicted_with_little_variance(noisy):
     fit, motions, _ = noisy
     found = recognise(fit.network, motions[0])

@@ -24,6 +24,7 @@ def generated():
     return teacher, Motions.from_arrays(paths, CHANNELS, 10.0), states
 
 
+@pytest.mark.slow
 def test_time_constants_are_recovered_within_a_tenth():
     teacher, motions, states = generated()
     wrong = np.asarray(MTRNN.draw(levels(3.0, 3.0, 15.0), key=jax.random.key(0)).tau)

@@ -69,6 +69,7 @@ def search_of(net, motions, free, enough=-np.inf):
     )
 
 
+@pytest.mark.slow
 def test_what_first_comes_near_enough_is_kept_and_stays_there(float64):
     net, arrays = drawn(3, learned_bias=True, initial_io="sensed")
     motions, twins = ragged()
@@ -97,6 +98,7 @@ def test_what_first_comes_near_enough_is_kept_and_stays_there(float64):
     assert found.chosen[2] == np.argmin(found.losses[2])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variance", [False, True])
 def test_a_step_follows_the_gradient_and_no_search_ends_worse(float64, variance):
     net = MTRNN.draw(

@@ -26,6 +26,7 @@ def test_hidden_channels_are_recovered_from_a_third_of_them(fit, motions, observ
         assert far(found, values, motions.channels) < 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("observed", ["x", "z"])
 def test_a_network_without_its_memory_recovers_less(fit, motions, observed):
     shown = motions.showing([observed])
@@ -44,6 +45,7 @@ def test_a_network_without_its_memory_recovers_less(fit, motions, observed):
     assert without > 5 * with_memory
 
 
+@pytest.mark.slow
 def test_what_is_given_and_drawn_counts_after_what_is_recalled(fit, motions):
     given = fit.initial_states[1:2] + 0.1
     settings = Recognition(iterations=200, starts=2)
@@ -110,6 +112,7 @@ def test_an_error_that_is_not_known_counts_as_a_typical_one(fit, motions):
     np.testing.assert_array_equal(unseen.enough, 0.0)
 
 
+@pytest.mark.slow
 def test_no_more_than_some_are_recalled_of_many():
     rng = np.random.default_rng(0)
     many = Motions.from_arrays([*rng.uniform(size=(6, 5, 1))], ["x"], 10.0)
@@ -119,6 +122,7 @@ def test_no_more_than_some_are_recalled_of_many():
     assert fit.memory.nearest(fit.network, many.batch()).starts.shape == (6, RECALLED, 3)
 
 
+@pytest.mark.slow
 def test_what_is_recalled_does_not_depend_on_company_or_padding(fit, motions):
     together = recognise_all(fit, motions.showing(["y"]))
     padded = recognise_all(fit, motions.showing(["y"]), padded_to=(5, 40))
@@ -140,6 +144,7 @@ def test_a_network_and_its_memory_recognise_as_their_fit_does(fit, motions):
         assert (one.start, one.loss) == (other.start, other.loss)
 
 
+@pytest.mark.slow
 def test_a_memory_of_unknown_errors_is_searched_to_the_end(fit, motions):
     memory = replace(fit.memory, errors=np.full((3, 3), np.nan))
     settings = Recognition(iterations=60, starts=0)

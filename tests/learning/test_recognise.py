@@ -30,6 +30,7 @@ def far(found, values, channels):
     return (np.sqrt(((found.path - values) ** 2)[1:].mean(0)) / ranges).max()
 
 
+@pytest.mark.slow
 def test_a_hidden_channel_is_recovered_from_random_starts(fit, motions):
     off = []
     for values in motions.values:
@@ -40,6 +41,7 @@ def test_a_hidden_channel_is_recovered_from_random_starts(fit, motions):
     assert np.mean(off) < 0.1 and max(off) < 0.15, off
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("observed", [["y", "z"], ["x", "z"]])
 def test_a_learned_motion_is_told_from_the_others_by_two_of_its_channels(fit, motions, observed):
     near = Recognition(iterations=10, starts=0)
@@ -52,6 +54,7 @@ def test_a_learned_motion_is_told_from_the_others_by_two_of_its_channels(fit, mo
         assert far(each, values, motions.channels) < 0.25
 
 
+@pytest.mark.slow
 @given(
     observed=st.sets(st.sampled_from("xyz"), min_size=1),
     first=st.integers(0, 8),
@@ -185,6 +188,7 @@ def test_a_network_that_computes_nothing_finite_is_a_verdict(fit, motions):
     assert found.status.failed
 
 
+@pytest.mark.slow
 def test_padding_and_company_change_nothing(fit, motions):
     plain = recognise_all(fit.network, motions, settings=QUICK, key=KEY)
     padded = recognise_all(fit.network, motions, settings=QUICK, key=KEY, padded_to=(6, 40))
@@ -205,6 +209,7 @@ def test_the_same_key_gives_the_same_bits_and_another_key_others(fit, motions):
     assert (first.initial_state != other.initial_state).any()
 
 
+@pytest.mark.slow
 def test_the_network_s_scaling_counts(fit, motions):
     elsewhere = Motions.from_arrays([motions.values[1]], motions.channels.names, 10.0)
 
@@ -215,6 +220,7 @@ def test_the_network_s_scaling_counts(fit, motions):
     np.testing.assert_array_equal(found.path, expected.path)
 
 
+@pytest.mark.slow
 def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     batch = motions.batch()
     net, bound = fit.network, np.full(17, np.inf, np.float32)
@@ -243,6 +249,7 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     assert training > weights_gradient
 
 
+@pytest.mark.slow
 def test_without_a_key_the_random_starts_are_those_of_key_0(fit, motions):
     found, same = (
         recognise(fit.network, motions[0], settings=Recognition(iterations=10), **key)

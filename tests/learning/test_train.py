@@ -90,6 +90,7 @@ def test_bounds_hold_after_every_update(network, motions):
     assert reached == 0.5
 
 
+@pytest.mark.slow
 def test_state_noise_is_repeated_by_its_key_alone(network, motions):
     noisy = settings(noise={"cf": 0.2})
     first, again, other = (
@@ -106,6 +107,7 @@ def test_state_noise_needs_a_key(network, motions):
         train(network, motions, settings=settings(noise={"cf": 0.2}))
 
 
+@pytest.mark.slow
 def test_padding_changes_nothing_even_with_noise(float64, motions):
     net = MTRNN.draw([Level(3, 2.0), Level(5, 5.0), Level(2, 70.0)], key=jax.random.key(0))
     chosen, key = settings(epochs=20, noise={"cf": 0.2}), jax.random.key(5)
@@ -156,6 +158,7 @@ def test_patience_waits_while_the_loss_falls(network, motions):
     assert fit.status.ending is Ending.STOPPED
 
 
+@pytest.mark.slow
 def test_held_out_motions_are_told_once_a_chunk(network, motions):
     told = []
     fit = train(

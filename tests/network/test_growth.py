@@ -34,8 +34,8 @@ def run(net, rows=12, batch=3):
         ((6, 40), 2),
         ((1, 1), 31),
         ((6, 26), 1),
-        ((2, 30, 4), 14),
-        ((7, 90), 30),
+        pytest.param((2, 30, 4), 14, marks=pytest.mark.slow),
+        pytest.param((7, 90), 30, marks=pytest.mark.slow),
     ],
 )
 @pytest.mark.parametrize("batch", [1, 9])
@@ -47,6 +47,7 @@ def test_without_influence_the_old_units_compute_the_same_bits(sizes, new, batch
     np.testing.assert_array_equal(run(grown, batch=batch)[..., : old.size], run(old, batch=batch))
 
 
+@pytest.mark.slow
 def test_without_influence_repeated_growth_still_computes_the_same_bits():
     old = network(3, 14)
     grown = old
@@ -104,6 +105,7 @@ def test_an_influence_below_zero_is_refused(influence):
         grow(network(3, 8), NEW, key=jax.random.key(1), influence=float(influence))
 
 
+@pytest.mark.slow
 def test_a_variance_that_was_learned_is_kept():
     old = MTRNN.draw([Level(2, 2.0), Level(4, 5.0)], key=jax.random.key(0), variance=True)
     old = replace(old, variance_weights=jax.random.normal(jax.random.key(1), (2, 4)))

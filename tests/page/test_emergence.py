@@ -18,6 +18,7 @@ def chart(person):
     return strokes.all_text_contents()
 
 
+@pytest.mark.slow
 def test_the_chart_says_of_every_stroke_how_clear_it_is_beside_the_newborn(person):
     told = chart(person)
     assert len(told) == 5
@@ -31,6 +32,7 @@ def test_the_chart_says_of_every_stroke_how_clear_it_is_beside_the_newborn(perso
     assert len(chart(person)) == 5, "it is kept"
 
 
+@pytest.mark.slow
 def test_a_newborn_has_nothing_clear_and_is_told_what_cannot_be_measured(parent):
     told = chart(parent)
     assert len(told) == 5 and not any("clear:" in each for each in told)

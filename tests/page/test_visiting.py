@@ -3,6 +3,7 @@
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
+import pytest
 from page.serving import served
 
 
@@ -54,6 +55,7 @@ def test_a_killed_worker_comes_back_with_the_session(person, taught):
     assert person.shows("UR ↓")["motion"] == "UR ↓"
 
 
+@pytest.mark.slow
 def test_what_is_drawn_while_the_robot_wakes_up_is_understood(open_page, trained, tmp_path):
     with served(tmp_path, trained) as server:
         person = open_page(server)

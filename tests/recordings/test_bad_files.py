@@ -109,6 +109,7 @@ def try_a_table(path, data):
     tried(path.parent)
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(st.data())
 def test_tables_of_anything(tmp_path, data):

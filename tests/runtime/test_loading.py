@@ -79,6 +79,7 @@ def test_everything_comes_as_it_was_written(saved, model):
     assert model.senses_first
 
 
+@pytest.mark.slow
 def test_a_trained_fit_is_read(tmp_path):
     t = np.linspace(0.0, 3.0, 20)[:, None]
     motions = Motions.from_arrays([np.hstack([np.sin(t), t])], ["x", "y"], 10.0, names=["a"])

@@ -7,8 +7,17 @@ import pytest
 from small_models import Clock
 
 from motionese.errors import ControlError
-from motionese.runtime import ControlLoop, Ending, Limits, OnlineRecognition, Part, Player
+from motionese.runtime import (
+    ControlLoop,
+    Ending,
+    Limits,
+    OnlineRecognition,
+    Part,
+    Player,
+    control_loop,
+)
 from motionese.runtime.schedule import schedule
+from motionese.runtime.timing import Watchdog
 
 HERE = {"lift": 0.4, "turn": -20.0, "grip": 0.5}
 WIDE = Limits(ranges={"lift": (-9, 9), "turn": (-999, 999), "grip": (-9, 9)})
@@ -33,6 +42,12 @@ class Robot:
 @pytest.fixture
 def robot():
     return Robot(Clock())
+
+
+@pytest.fixture(autouse=True)
+def a_machine_that_is_never_too_slow(monkeypatch):
+    """The loop's time is pretended here, the watchdog's is not: it waits far longer than is set."""
+    monkeypatch.setattr(control_loop, "Watchdog", lambda seconds, stop: Watchdog(600.0, stop))
 
 
 def loop_of(model, robot, sense=lambda: HERE, **settings):

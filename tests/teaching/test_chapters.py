@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from motionese.caregiver import Demonstration
 from motionese.experiment import read_settings
 from motionese.imitation import Scene, newborn
@@ -49,6 +51,7 @@ def lessons(teaching, motion, count):
     teaching.standing = replace(teaching.standing, notebook=notebook)
 
 
+@pytest.mark.slow
 def test_each_is_ended_by_the_act_itself(teaching, draw):
     assert now(teaching) == (PUSH, "show", "UL ↓"), "the push straight before the body"
     teaching.show(draw("UL ↓"), "drawn")

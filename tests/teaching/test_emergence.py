@@ -142,6 +142,7 @@ def test_it_is_counted_whose_strokes_follow():
     assert following_of(rows, "transfer", "").missing
 
 
+@pytest.mark.slow
 def test_levels_are_exchanged_and_read_part_by_part(scene, tall):
     known = knowing(tall, scene, "UR ↓↑", "UR ←↓", "LR ↑←", "LR ↑↓")
     found, parts = measured(scene, known, number=7)
@@ -164,6 +165,7 @@ def test_a_stroke_is_clear_that_was_learned_and_goes_its_way_nearly_everywhere()
     assert replace(almost, share=0.0).sentence(False) == "not yet: goes another way"
 
 
+@pytest.mark.slow
 def test_what_emerged_is_measured_once_and_kept_with_the_session(teaching, tmp_path):
     assert sum(1 for _ in teaching.measured()) == 2
     (first,) = teaching.emerged

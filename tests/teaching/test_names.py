@@ -21,6 +21,7 @@ def diagonal(scene):
     return path, path[::-1].copy()
 
 
+@pytest.mark.slow
 def test_all_that_is_known_of_a_motion_follows_its_name(teaching, diagonal, kept, tmp_path):
     folder = SessionFolder(tmp_path)
     teaching.show(diagonal[0], "drawn")
@@ -46,6 +47,7 @@ def test_all_that_is_known_of_a_motion_follows_its_name(teaching, diagonal, kept
     assert read(tmp_path / "demonstrations.npz").episodes[0].name == "big wave"
 
 
+@pytest.mark.slow
 def test_a_robot_that_is_returned_to_knows_it_by_its_new_name(
     teaching, draw, diagonal, kept, tmp_path
 ):

@@ -40,6 +40,7 @@ def test_three_robots_develop_as_they_were_begun(school):
         school.begin("fresh", "told")
 
 
+@pytest.mark.slow
 def test_every_robot_is_found_again_as_it_was(school, draw, kept):
     second = school.begin("fresh", "never", "  Lazy\tBones ")
     second.teaching.show(draw("UR ↓"), "drawn")
@@ -87,6 +88,7 @@ def test_the_command_that_began_a_session_goes_on_when_its_robot_was_put_away(sc
         SessionFolder(tmp_path).read("runs/other")
 
 
+@pytest.mark.slow
 def test_all_try_the_same_motions_and_learning_makes_that_old(school, draw, kept):
     first, second = school.pupils[0], school.begin("fresh", "beginning")
     first.teaching.show(draw("UR ↓"), "drawn")

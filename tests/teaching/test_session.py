@@ -69,6 +69,7 @@ def test_learning_practises_shows_every_try_and_tells_how_far_it_is(teaching, dr
     assert teaching.imitate().error_cm == errors[-1]
 
 
+@pytest.mark.slow
 def test_a_lesson_leaves_the_robot_no_worse_at_what_it_was_taught_nor_overall(teaching, draw):
     for name in ("UR ←", "UR ↓", "UR ←"):
         teaching.show(draw(name), "drawn")
@@ -108,6 +109,7 @@ def test_an_entry_that_is_looked_back_at_is_imitated_next(teaching, draw):
     assert teaching.look_back(7) is None
 
 
+@pytest.mark.slow
 def test_forgetting_the_last_learning_gives_the_network_back(teaching, draw, tmp_path, kept):
     folder = SessionFolder(tmp_path)
     teaching.show(draw("UR ←"), "drawn")
@@ -123,6 +125,7 @@ def test_forgetting_the_last_learning_gives_the_network_back(teaching, draw, tmp
     assert teaching.observed is None and teaching.forget(1, folder.learner) == ""
 
 
+@pytest.mark.slow
 def test_forgetting_an_earlier_learning_ends_its_rehearsal(teaching, draw, tmp_path, kept):
     folder = SessionFolder(tmp_path)
     for name in ("UR ←", "UR ↓"):

@@ -30,6 +30,7 @@ def lesson(learned):
     return recognised(scene, learner, LESSON, settings, DEMONSTRATIONS)
 
 
+@pytest.mark.slow
 def test_fresh_demonstrations_of_every_motion_are_recognised(learned, lesson):
     scene, learner = learned
     assert [(d.sequence, d.number) for d in lesson.demonstrations] == [

@@ -186,6 +186,7 @@ def test_numbers_out_of_range_end_with_status_2(arm):
     assert not (arm / "new.csv").exists()
 
 
+@pytest.mark.slow
 def test_a_held_out_motion_is_called_so_and_can_be_generated_once_recognised(arm):
     train = ("train", "data.npz", "--levels", "6:3", "--epochs", "1", "--held-out", "wave")
     assert typed(*train, "--out", "part.safetensors")[0] == 0

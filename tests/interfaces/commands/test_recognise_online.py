@@ -99,6 +99,7 @@ def test_gaps_and_missing_channels_are_not_observed(arm, data):
         np.testing.assert_allclose(numbers(row[7:11]), known.ahead[-1], rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_too_short_a_window_is_noted_with_the_rows_that_would_be_needed(arm):
     note = (
         "A window of 10 rows holds 9 observed values after its first, fewer than the network's 13 "

@@ -54,6 +54,7 @@ def test_a_model_that_would_not_move_is_called_so_and_training_it_stops_early(ar
     assert "On a robot these motions would not be recognisable" in told
 
 
+@pytest.mark.slow
 def test_errors_of_held_out_motions_are_told_and_logged(arm):
     fit, told = trained_model(*HELD_OUT, "--epochs", "100", "--log", "jsonl")
 
@@ -68,6 +69,7 @@ def test_errors_of_held_out_motions_are_told_and_logged(arm):
     assert (line["epoch"], line["loss"]) == (100, fit.losses[-1])
 
 
+@pytest.mark.slow
 def test_what_the_file_sets_apart_is_held_out(arm):
     replace(Motions.read("data.npz"), held_out=("push",)).write("apart.npz")
     status, told, errors = typed("train", "apart.npz", "--epochs", "1", "--out", "new.safetensors")
@@ -161,6 +163,7 @@ def test_a_kill_before_the_model_is_saved_loses_nothing(arm, monkeypatch):
     assert not (arm / "new.checkpoint").exists()
 
 
+@pytest.mark.slow
 def test_a_training_is_gone_on_with_only_as_it_was_begun(arm, stopped_at):
     command = ("train", "data.npz", "--out", "new.safetensors", *SHORT, "--log", "jsonl")
     stopped_at(100)
@@ -356,6 +359,7 @@ def test_going_on_ends_with_the_same_bits_stopped_or_not(arm, stopped_at):
     assert [json.loads(line)["epoch"] for line in (arm / "new.log.jsonl").open()] == [100, 200, 400]
 
 
+@pytest.mark.slow
 def test_a_model_is_replaced_by_a_training_that_begins_anew_and_is_stopped(arm, stopped_at):
     trained_on("--epochs", "100")
     stopped_at(100)
@@ -391,6 +395,7 @@ def test_what_diverged_is_not_gone_on_with(arm):
     assert "diverged" in refused(*GOING_ON, *again)
 
 
+@pytest.mark.slow
 def test_a_training_begins_from_a_model(arm):
     first, _ = trained_on("--epochs", "300", "--held-out", "0")
     motions = dict(list(arm_motions().items())[:2])

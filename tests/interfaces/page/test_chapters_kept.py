@@ -11,6 +11,7 @@ def last(told, kind):
     return next(each for each in reversed(told) if each["type"] == kind)
 
 
+@pytest.mark.slow
 def test_a_new_robot_goes_on_with_the_chapters_of_the_one_before(
     robot, told, does, draw_with, tmp_path
 ):

@@ -133,6 +133,7 @@ def test_lessons_that_were_stopped_go_on_where_they_were(robot, told):
     assert [e["motion"] for e in last(told, "session")["notebook"]] == ["UR ↓", "UR ←"]
 
 
+@pytest.mark.slow
 def test_all_are_compared_at_the_same_motions(robot, told):
     done(robot, "compare")
     assert "nothing to compare yet" in said(told)[-1]
@@ -151,6 +152,7 @@ def test_all_are_compared_at_the_same_motions(robot, told):
     assert [r["can"] is None for r in last(told, "robots")["robots"]] == [False, True]
 
 
+@pytest.mark.slow
 def test_a_session_that_was_sent_takes_the_place_of_this_one(robot, told, tmp_path):
     home = tmp_path / "session"
     begun(robot, name="Second")
