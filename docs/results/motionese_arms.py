@@ -10,8 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pandas as pd
+from keep import table
 
-from motionese.analysis.cells import with_interval
+from motionese.analysis.cells import Table, with_interval
 from motionese.analysis.motionese_arms import Arms, arm_findings, arm_table
 from motionese.analysis.page_tables import findings_rows
 from motionese.analysis.statistics import estimate
@@ -33,32 +34,28 @@ def lines(arms: Arms) -> Iterator[str]:
     yield ABOUT
     yield "## Findings\n"
     head, rows = findings_rows(arm_findings(arms))
-    yield from _table([*head], [[f"{what}<br>{measured}", *row] for what, measured, *row in rows])
+    rows = [[f"{what}<br>{measured}", *row] for what, measured, *row in rows]
+    yield from table(Table(head, rows))
     yield "\n## Arms\n"
     cells = [
-        [name, str(len(table)), *(with_interval(estimate(_numbers(table, m))) for m in SHOWN)]
-        for name, table in arms.items()
+        [name, str(len(arm)), *(with_interval(estimate(_numbers(arm, m))) for m in SHOWN)]
+        for name, arm in arms.items()
     ]
-    yield from _table(["arm", "seeds", *SHOWN], cells)
+    yield from table(Table(["arm", "seeds", *SHOWN], cells))
 
 
-def _numbers(table: pd.DataFrame, measure: str) -> "pd.Series[float]":
-    return table.get(measure, pd.Series(dtype=float)).to_numpy(dtype=float)
-
-
-def _table(head: list[str], rows: list[list[str]]) -> Iterator[str]:
-    for cells in (head, ["---"] * len(head), *rows):
-        yield f"| {' | '.join(cells)} |"
+def _numbers(arm: pd.DataFrame, measure: str) -> "pd.Series[float]":
+    return arm.get(measure, pd.Series(dtype=float)).to_numpy(dtype=float)
 
 
 def kept_arms(file: Path) -> Arms:
     """Return the arms of the table beside the page, none if there is no such table."""
     if not file.is_file():
         return {}
-    table = pd.read_csv(file, index_col=["arm", "seed"])
+    together = pd.read_csv(file, index_col=["arm", "seed"])
     return {
         name: rows.droplevel("arm").dropna(axis="columns", how="all")
-        for name, rows in table.groupby("arm")
+        for name, rows in together.groupby("arm")
     }
 
 
@@ -75,5 +72,5 @@ if __name__ == "__main__":
     found = kept_arms(page.with_suffix(".csv")) | {f.name: arm_table(f) for f in run_folders}
     arms = {name: found[name] for name in sorted(found, key=in_order)}
     page.write_text("\n".join([*lines(arms), ""]), encoding="utf-8")
-    table = pd.concat(arms, names=["arm", "seed"])
-    table.to_csv(page.with_suffix(".csv"), float_format="%.6g", lineterminator="\n")
+    together = pd.concat(arms, names=["arm", "seed"])
+    together.to_csv(page.with_suffix(".csv"), float_format="%.6g", lineterminator="\n")
