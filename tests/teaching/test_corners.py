@@ -67,6 +67,8 @@ def test_a_pause_tells_the_corner_that_it_is_near_and_no_other():
     assert corners("UR ←↓", on_the_way) == (Corner("UL", told=False),)
     nearly = resting(("UR", 0), (shortly_before, 1.0), ("UL", 0), ("LL", 0))
     assert corners("UR ←↓", nearly) == (Corner("UL", told=True),)
+    once = resting(("UR", 0), ("LR", 1.0), ("UR", 0), ("LR", 0), ("UR", 0))
+    assert [c.told for c in corners("UR ↓↑↓↑", once)] == [True, False, False]
     again = resting(("UR", 0), ("LR", 0), ("UR", 0), ("LR", 1.0), ("UR", 0))
     assert [c.told for c in corners("UR ↓↑↓↑", again)] == [False, False, True]
 
