@@ -17,7 +17,7 @@ def shows(person, rest_s):
 def measured(person):
     rows = person.page.get_by_test_id("manner").locator("tr").all()
     cells = [row.locator("th, td").all_text_contents() for row in rows]
-    return {first.strip(): rest for first, *rest in cells}
+    return {first.strip(): [told.replace("\xa0", " ") for told in rest] for first, *rest in cells}
 
 
 def test_the_wish_for_a_pause_goes_when_it_is_heard(person):
@@ -25,10 +25,10 @@ def test_the_wish_for_a_pause_goes_when_it_is_heard(person):
     assert WISH in person.guide() and WISH in person.page.text_content("#verdict-spoken")
     assert hurried["pauses"][0] == "none"
     assert hurried["pace"][0] == "undefined: no pause between movements"
-    paused = shows(person, 0.7)
+    paused = shows(person, 2.0)  # so long that a busy machine does not blur it
     assert SEEN in person.guide() and "please" not in person.guide()
     assert paused["UR ←↓UR"] == ["you", "as to an adult", "with motionese"]
-    assert paused["pauses"][0].startswith("1, 0.") and float(paused["pace"][0]) > 1
+    assert paused["pauses"][0].startswith("1, ") and 0 < float(paused["pace"][0]) < 9
     assert paused["pauses"][1] == "1, 0.2 s" and float(paused["pace"][1]) > 9
     assert paused["roundness"][1] == "1.01" and float(paused["roundness"][2]) > 1.3
     assert person.complaints == []

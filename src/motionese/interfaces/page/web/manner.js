@@ -38,5 +38,5 @@ function value(name, measured) {
 
 function pausesInWords({ pause_count: count, pause }) {
   if (!count) return count === 0 ? "none" : undefined;
-  return `${count}, ${pause.toFixed(1)} s${count > 1 ? " on average" : ""}`;
+  return `${count}, ${pause.toFixed(1)}\u00a0s${count > 1 ? " on average" : ""}`;
 }
