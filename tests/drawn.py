@@ -25,8 +25,10 @@ def places(name: str) -> list[np.ndarray]:
     return [view().of_points(task.position(place)) for place in task.sequence(name).places]
 
 
-def points_of(name: str, seconds: float = 1.2, seed: int = 0) -> list[tuple[float, float, float]]:
-    """A motion as a trembling hand draws it: bowed strokes of uneven length, with pauses."""
+def points_of(
+    name: str, seconds: float = 1.2, seed: int = 0, rests: tuple[float, float] = (0.1, 0.3)
+) -> list[tuple[float, float, float]]:
+    """A motion as a trembling hand draws it: bowed strokes of uneven length, with pauses [s]."""
     rng = np.random.default_rng(seed)
     corners, way = places(name), []
     for start, end in pairwise(corners):
@@ -34,7 +36,7 @@ def points_of(name: str, seconds: float = 1.2, seed: int = 0) -> list[tuple[floa
         share = np.arange(count)[:, None] / count
         eased = share**3 * (10 - 15 * share + 6 * share**2)
         way.append(start + eased * (end - start) + np.sin(np.pi * share) * rng.normal(0, 0.01, 2))
-        way.append(np.repeat(end[None], int(rng.uniform(0.1, 0.3) * HZ), axis=0))
+        way.append(np.repeat(end[None], int(rng.uniform(*rests) * HZ), axis=0))
     drawn = np.concatenate(way)
     drawn = drawn + rng.normal(0, 0.001, drawn.shape)
     return [(1000 * row / HZ, float(x), float(y)) for row, (x, y) in enumerate(drawn)]

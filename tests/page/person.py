@@ -74,22 +74,22 @@ class Person:
         self.page.mouse.up()
         return moves, time.monotonic() - began
 
-    def draw_through(self, places: list[str]) -> None:
-        """Draw from place to place."""
+    def draw_through(self, places: list[str], rest_s: float = REST_S) -> None:
+        """Draw from place to place, and rest in each."""
         self.page.evaluate("scrollTo(0, 0)")
-        self._draws(places, STROKE_S)
+        self._draws(places, STROKE_S, rest_s)
         self.page.mouse.up()
 
     def draws(self, motion: str, stroke_s: float = STROKE_S) -> int:
         """Draw a motion with a minimum-jerk hand that trembles a little, and keep the pen down."""
         return self._draws(PUSHING_BUTTONS.sequence(motion).places, stroke_s)
 
-    def _draws(self, passed: Sequence[str], stroke_s: float) -> int:
+    def _draws(self, passed: Sequence[str], stroke_s: float, rest_s: float = REST_S) -> int:
         places = [np.array(self.at(place)) for place in passed]
         self.page.mouse.move(*places[0])
         self.page.mouse.down()
         moves, began = 0, time.monotonic()
-        each = stroke_s + REST_S
+        each = stroke_s + rest_s
         while (now := time.monotonic() - began) < each * (len(places) - 1):
             stroke, within = divmod(now, each)
             share = min(within / stroke_s, 1.0)

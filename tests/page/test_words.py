@@ -3,6 +3,7 @@
 from page.person import Person
 
 WORDS = {"caregiver", "primitive", "places", "tau", "io", "cf", "cs", "start", "loop"}
+WORDS |= {"motionese", "pauses", "pace", "roundness"}
 
 
 def note(person: Person):

@@ -38,14 +38,23 @@ def kept(monkeypatch):
     monkeypatch.setattr(session, "kept_practice", last)
 
 
-@pytest.fixture
-def draw(scene):
-    """Draw a sequence; returns the hand's path at the robot's tempo."""
+@pytest.fixture(scope="session")
+def draw_in_time(scene):
+    """Draw a sequence; returns the hand's path as it went in time."""
 
     def drawn(name: str, **how):
         drawing = Drawing()
         drawing.add(points_of(name, **how))
-        positions, _ = view().positions(drawing.sampled(scene.body.rate_hz))
-        return at_tempo(positions, scene.task, scene.settings.caregiver)
+        return view().positions(drawing.sampled(scene.body.rate_hz))[0]
+
+    return drawn
+
+
+@pytest.fixture
+def draw(scene, draw_in_time):
+    """Draw a sequence; returns the hand's path at the robot's tempo."""
+
+    def drawn(name: str, **how):
+        return at_tempo(draw_in_time(name, **how), scene.task, scene.settings.caregiver)
 
     return drawn

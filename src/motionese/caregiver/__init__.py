@@ -2,7 +2,7 @@
 
 from motionese.caregiver.demonstration import Caregiver, Demonstration
 from motionese.caregiver.hypotheses import SOMETHING_ELSE, hypotheses, sequence_in
-from motionese.caregiver.motionese import Motionese
+from motionese.caregiver.motionese import FULL, Motionese
 from motionese.caregiver.recorded_caregiver import (
     DEMONSTRATIONS,
     Recorded,
@@ -17,6 +17,7 @@ from motionese.caregiver.ways import evenly_along, intended_way, stroke_length
 
 __all__ = [
     "DEMONSTRATIONS",
+    "FULL",
     "SOMETHING_ELSE",
     "Caregiver",
     "Demonstration",

@@ -126,9 +126,24 @@ class Motionese(BaseModel):
         return 1 + round(self.repetition.strength * (MOST_SHOWN - 1))
 
     @property
+    def emphasises(self) -> bool:
+        """Whether anything is emphasised."""
+        return any(each.strength for _, each in self if isinstance(each, Emphasis))
+
+    @property
     def leaves_the_way(self) -> bool:
         """Whether the hand goes where it would not go for an adult."""
         return bool(self.exaggeration.strength or self.roundness.strength)
+
+
+FULL = Motionese(
+    pauses=Pauses(strength=1),
+    exaggeration=Emphasis(strength=1),
+    slowness=Emphasis(strength=1),
+    roundness=Roundness(strength=1),
+    repetition=Emphasis(strength=1),
+)
+"""Everything emphasised at full strength."""
 
 
 def exaggerated(phase: Float[ndarray, " R"], further: float) -> Float[ndarray, " R"]:

@@ -1,7 +1,7 @@
 """A teaching session: what a person does with the robot, and what becomes of both."""
 
 import re
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,12 +22,14 @@ from motionese.imitation import (
     watch,
 )
 from motionese.teaching.claim import claim_on
+from motionese.teaching.corners import Corner, pauses_in_words, wish_in_words
 from motionese.teaching.emergence import Emergence, emergence_of
 from motionese.teaching.lesson import Lesson, kept_practice
 from motionese.teaching.notebook import Change, Entry, Learning, Notebook, Source
 from motionese.teaching.practice import Report, practised
 from motionese.teaching.recogniser import Interpretation, Recogniser, start_of
 from motionese.teaching.result import Result, result_of
+from motionese.teaching.shown_manner import ShownManner, shown_manner
 from motionese.teaching.trial import Trial
 from motionese.teaching.verdict import Verdict, seen_in_words, sequence_called
 
@@ -53,6 +55,7 @@ class Observation:
     entry: Entry
     watched: Watched
     interpretation: Interpretation
+    manner: ShownManner
     verdict: Verdict
 
 
@@ -156,10 +159,9 @@ class Teaching:
         if motion == SOMETHING_ELSE:
             motion = self._own_name()
         demonstration = segmented(path, sequence_called(motion, self.scene.task), self.scene.task)
-        watched, interpretation, verdict = self._understood(demonstration, motion, seen)
         drawn = path if drawn is None else drawn
         entry = Entry(notebook.next, motion, source, drawn, demonstration)
-        observed = Observation(entry, watched, interpretation, verdict)
+        observed = self._understood(entry, seen)
         notebook = notebook.with_entry(entry)
         self.standing = replace(self.standing, notebook=notebook, observed=observed)
         return observed
@@ -190,8 +192,7 @@ class Teaching:
         entry = self.notebook.entry(number)
         if entry is None:
             return None
-        shown = entry.demonstration
-        observed = Observation(entry, *self._understood(shown, entry.motion, self.seen(shown.path)))
+        observed = self._understood(entry, self.seen(entry.demonstration.path))
         self.standing = replace(self.standing, observed=observed)
         return observed
 
@@ -340,13 +341,13 @@ class Teaching:
         state = interpretation.state
         self.scene.perform(self.learner.network, state, sequence, 3, "warming")
 
-    def _understood(
-        self, demonstration: Demonstration, motion: str, seen: Mapping[str, float]
-    ) -> tuple[Watched, Interpretation, Verdict]:
-        """Watch a demonstration of a motion, and say what is understood of it."""
-        watched = self.watch(demonstration)
+    def _understood(self, entry: Entry, seen: Mapping[str, float]) -> Observation:
+        """Watch an entry of the notebook, and say what is understood of it."""
+        watched = self.watch(entry.demonstration)
         interpretation = self.recogniser.at_the_end(watched)
-        return watched, interpretation, self._verdict(seen, motion, watched, interpretation)
+        manner = shown_manner(entry, self.scene)
+        verdict = self._verdict(seen, entry.motion, watched, interpretation, manner.corners)
+        return Observation(entry, watched, interpretation, manner, verdict)
 
     def _verdict(
         self,
@@ -354,18 +355,20 @@ class Teaching:
         motion: str,
         watched: Watched,
         interpretation: Interpretation,
+        corners: Sequence[Corner],
     ) -> Verdict:
         task, tried = self.scene.task, self.standing.results.get(motion)
         sequence = sequence_called(motion, task)
-        claim = claim_on(watched, sequence, self.recogniser, interpretation, tried)
         learned = {e.motion for e in self.learner.experiences}
+        saw = (seen_in_words(seen, motion, task, learned), pauses_in_words(corners))
         return Verdict(
             seen=seen,
             motion=motion,
             sequence=sequence,
             error_cm=path_error_cm(interpretation.path, watched.path),
-            claim=claim,
-            sentence=f"{seen_in_words(seen, motion, task, learned)} {claim.sentence}",
+            claim=claim_on(watched, sequence, self.recogniser, interpretation, tried),
+            saw=" ".join(filter(None, saw)),
+            wish=wish_in_words(corners),
         )
 
     def _own_name(self) -> str:
@@ -398,8 +401,13 @@ class Teaching:
     def _judged_again(self) -> Verdict:
         """Judge what was shown last with the network as it is now."""
         observed = self._observed()
-        seen, motion = observed.verdict.seen, observed.entry.motion
-        verdict = self._verdict(seen, motion, observed.watched, observed.interpretation)
+        verdict = self._verdict(
+            observed.verdict.seen,
+            observed.entry.motion,
+            observed.watched,
+            observed.interpretation,
+            observed.manner.corners,
+        )
         self.standing = replace(self.standing, observed=replace(observed, verdict=verdict))
         return verdict
 

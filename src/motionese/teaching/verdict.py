@@ -28,8 +28,8 @@ class Verdict:
         sequence: What was shown; None if that is no sequence of the task.
         error_cm: Mean distance of the understood path from the shown one, row by row [cm].
         claim: Whether it can do it.
-        sentence: All this in words.
-        advice: What to do now.
+        saw: What was seen, in words.
+        wish: What is wished of who shows, in words; empty for nothing.
     """
 
     seen: Mapping[str, float]
@@ -37,7 +37,18 @@ class Verdict:
     sequence: PrimitiveSequence | None
     error_cm: float
     claim: Claim
-    sentence: str
+    saw: str
+    wish: str = ""
+
+    @property
+    def sentence(self) -> str:
+        """All this in words."""
+        return " ".join(filter(None, (self.saw, self.wish, self.claim.sentence)))
+
+    @property
+    def line(self) -> str:
+        """What of it stands in one line: a wish comes before the claim, which has its own place."""
+        return f"{self.saw} {self.wish or self.claim.sentence}"
 
     @property
     def advice(self) -> Advice:

@@ -33,6 +33,8 @@ from motionese.teaching.view import ASPECT, View
 DIGITS = 4
 PART_S = 0.2
 """Frames are sent in parts of so many seconds, each when it is due."""
+MANNER = ("pace", "roundness", "pause_count", "pause")
+"""The measures that are told of how a motion was shown."""
 BARS = 3
 """So many hypotheses about what was shown are told."""
 
@@ -126,9 +128,24 @@ def session_message(teaching: Teaching, view: View, name: str, began: str, busy:
         "can_grow": teaching.can_grow,
         "shown": observed.entry.number if observed else None,
         "watched": listed(view.of_points(observed.watched.path)) if observed else [],
+        "manner": _manner(observed) if observed else None,
         "suggest": suggestion,
         "chapter": _chapter(chapter_of(teaching)),
         "busy": busy,
+    }
+
+
+def _manner(observed: Observation) -> Answer:
+    """Return how a motion was shown, by who shows it; None for what is undefined, and why."""
+    return {
+        "motion": observed.entry.motion,
+        "measures": {
+            who: {
+                **{name: _known(getattr(measures, name)) for name in MANNER},
+                "undefined": {n: why for n, why in measures.undefined.items() if n in MANNER},
+            }
+            for who, measures in observed.manner.measures.items()
+        },
     }
 
 
@@ -179,6 +196,7 @@ def verdict_message(observed: Observation, view: View, seconds: float) -> Answer
         "next": listed(view.of_points(observed.interpretation.next)),
         "error_cm": round(verdict.error_cm, 2),
         "sentence": verdict.sentence,
+        "line": verdict.line,
         "advice": verdict.advice,
         "ms": round(1000 * seconds),
     }

@@ -60,7 +60,7 @@ function inWords(now) {
 
 /** Return what has just come about, as far as it is still on the page. */
 function news({ step, verdict, performed, learned, replayed, grown }) {
-  if (step === "judged") return `“${verdict.sentence}”`;
+  if (step === "judged") return `“${verdict.line}”`;
   if (step === "replayed") return `Here is its try ${replayed.attempt} again. ${replayed.sentence}`;
   return { performed, learned, grown }[step]?.sentence ?? "";
 }

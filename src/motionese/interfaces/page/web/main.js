@@ -11,6 +11,7 @@ import { Ghost } from "./ghost.js";
 import { Lesson } from "./lesson.js";
 import { LessonFilm } from "./lesson_film.js";
 import { Live } from "./live.js";
+import { showManner } from "./manner.js";
 import { StateMap } from "./map.js";
 import { furnishNaming } from "./naming.js";
 import { showGrown, showNotebook } from "./notebook.js";
@@ -123,6 +124,7 @@ const heard = {
       (entry) => send({ type: "replay", entry }),
       (entry) => send({ type: "forget", entry }),
     );
+    showManner(message.manner);
     if (!message.busy) lesson.stopped();
   },
   robots(message) {

@@ -3,6 +3,8 @@
 import { task } from "./task.js";
 
 const MOCHIZUKI = "Mochizuki et al. 2013";
+const BRAND = "Brand et al. 2002";
+const ROHLFING = "Rohlfing et al. 2006";
 const YAMASHITA = "Yamashita & Tani 2008";
 
 /** Pictures are lines [kind, path] in a field of 120 by 48. */
@@ -69,6 +71,34 @@ export const WORDS = {
     picture: [
       ["axis", "M40 8H80V30H40Z"],
       ["io", "M80 19H100V42H20V19H36M36 19l-7-5M36 19l-7 5"],
+    ],
+  },
+  motionese: {
+    title: "Motionese",
+    sentence: "How people show things to infants: slower, with more pauses, wider, and again.",
+    source: BRAND,
+  },
+  pauses: {
+    title: "Pauses",
+    sentence: "Where the hand is still between two movements, for 0.15 s at least.",
+    source: ROHLFING,
+    picture: [
+      ["axis", "M4 44H116"],
+      ["io", "M4 42C16 42 16 8 28 8S40 42 48 42H72C80 42 80 8 92 8S104 42 116 42"],
+    ],
+  },
+  pace: {
+    title: "Pace",
+    sentence: "How many times as long as it pauses the hand moves; a low pace has long pauses.",
+    source: ROHLFING,
+  },
+  roundness: {
+    title: "Roundness",
+    sentence: "How long a way is, over the distance of its ends: 1 is straight, 1.57 half a circle.",
+    source: ROHLFING,
+    picture: [
+      ["axis", "M12 42H108"],
+      ["io", "M12 42C30 2 90 2 108 42"],
     ],
   },
   places: {
