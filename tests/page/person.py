@@ -135,9 +135,9 @@ class Person:
         return self.until(lambda state: state["step"] == "performed" and not state["busy"])
 
     def lets_it_learn(self) -> dict[str, Any]:
+        before = self.state()["learned"]
         self.presses("learn")
-        self.until(lambda state: state["busy"])
-        return self.until(lambda state: state["step"] == "learned" and not state["busy"])
+        return self.until(lambda state: state["learned"] != before and not state["busy"])
 
     def focused(self) -> str:
         return self.page.evaluate("document.activeElement.id")
