@@ -12,7 +12,7 @@ from ragged_motions import drawn, ragged
 from motionese import MTRNN, Level, Motions, Recognition
 from motionese.errors import SettingError
 from motionese.learning import recognise_all
-from motionese.learning.recognition.least_squares import damped_steps, normal_equations
+from motionese.learning.recognition.least_squares import BROAD, damped_steps, normal_equations
 from motionese.learning.recognition.search import Search
 
 LEAST_SQUARES = Recognition(optimiser="least_squares", iterations=7, starts=0, bound=100.0)
@@ -35,6 +35,7 @@ def test_recognition_equals_damped_steps_by_hand(
     starts = np.random.default_rng(2).normal(size=(3, 1, net.size))
     settings = LEAST_SQUARES.model_copy(
         update={"penalty": penalty, "levels": levels, "bound": bound, "slower": slower}
+        | {"iterations": BROAD + 4}
     )
 
     found = recognise_all(net, motions, starts=starts, settings=settings, padded_to=(4, 9))
@@ -48,7 +49,7 @@ def test_recognition_equals_damped_steps_by_hand(
     for each, motion, begin in zip(found, twins, starts[:, 0], strict=True):
         state, loss, _ = by_hand.recognition(
             arrays, motion, begin, [*io, *context],
-            iterations=7, bound=widest, penalty=penalty, paces=paces,
+            iterations=BROAD + 4, bound=widest, penalty=penalty, paces=paces,
         )  # fmt: skip
         np.testing.assert_allclose(each.initial_state, state, rtol=0, atol=1e-8)
         assert each.loss == pytest.approx(loss, rel=1e-9)

@@ -60,11 +60,13 @@ class _Progress(NamedTuple):
 def damped_steps(search: Search, iterations: int) -> Found:
     """Take damped steps, so many at most, and keep the best start of every motion.
 
-    All starts take the first `BROAD` steps; only the best of every motion goes on.
+    All starts take the first `BROAD` steps; only the best of every motion goes on. A single start
+    takes them all.
     """
     starts = search.free.shape[1]
-    broad = _taken(search, _at(search, search.begin), min(iterations, BROAD))
-    if iterations <= BROAD or starts == 1:
+    first = iterations if starts == 1 else min(iterations, BROAD)
+    broad = _taken(search, _at(search, search.begin), first)
+    if first == iterations:
         return search.found(broad.sought, broad.loss, broad.taken)
     chosen = search.found(broad.sought, broad.loss, broad.taken).chosen
     best = jnp.arange(len(chosen)) * starts + chosen
