@@ -94,9 +94,9 @@ def test_a_file_that_changed_is_told_and_made_again_as_is_said(
     checkpoint.unlink()
     go_through(run, small_settings, lambda loop: None)
     assert left_on_disk(tmp_path) == undisturbed
-    for name in ("loops.csv", "ended.json"):
+    for name, removed in (("loops.csv", "ended.json beside it"), ("ended.json", "it")):
         flip(tmp_path / name, 30)
-        refused(f"{name} has changed since it was written: remove ended.json beside it, and the")
+        refused(f"{name} has changed since it was written: remove {removed}, and the same")
         (tmp_path / "ended.json").unlink()
         go_through(run, small_settings, lambda loop: None)
         assert left_on_disk(tmp_path) == undisturbed

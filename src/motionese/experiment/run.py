@@ -121,7 +121,8 @@ class Run:
             if path in checkpoints or (ended and path.suffix != checkpoint_path(path, 1).suffix)
         ]
         if found:
-            what = f"remove {ENDED} beside it, and {AGAIN}"
+            removed = "it" if found[0].name == ENDED else f"{ENDED} beside it"
+            what = f"remove {removed}, and {AGAIN}"
             if found[0] in checkpoints:
                 what = (
                     f"remove it, the checkpoints of later loops and {ENDED}, and the same "
