@@ -17,9 +17,6 @@ from motionese.recordings.grid import even, resampled
 from motionese.recordings.rate import of_one_rate, rate_of
 from motionese.recordings.recording import LARGEST, Episode, Recording
 
-BLOCK = 512
-"""Rows in which a movement is sought at a time: most begin early."""
-
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
     """Return a recording of the chosen channels at one rate, every channel with a range.
@@ -189,12 +186,14 @@ def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     values, observed = episode.values, episode.observed
     if not len(values):
         return 0
-    first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
-    for start in range(0, len(values), BLOCK):
-        rows = slice(start, start + BLOCK)
+    began = 0 if observed[0].all() else np.argmax(observed, axis=0)
+    first, start = values[began, np.arange(len(limits))], 0
+    # Most begin to move early.
+    for here, seen in episode.blocks():
         # What was not observed may be NaN or infinite.
         with np.errstate(invalid="ignore"):
-            moved = ((np.abs(values[rows] - first) > limits) & observed[rows]).any(axis=1)
+            moved = ((np.abs(here - first) > limits) & seen).any(axis=1)
         if moved.any():
             return max(start + int(np.argmax(moved)) - 1, 0)
+        start += len(here)
     return len(values) - 1
