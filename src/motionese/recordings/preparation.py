@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import ChannelError, MotionError, RecordingError
+from motionese.errors import ChannelError, MotionError, MotioneseError, RecordingError
 from motionese.recordings.binary import held, with_binary
 from motionese.recordings.choice import Choice, chosen, given_ranges
 from motionese.recordings.examination import examined
@@ -28,7 +28,15 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
             another unit, or span far more rows than there are; or, if strict, any finding.
         SettingError: A rate to resample to that is out of reach.
     """
-    return finished(with_binary(examined(chosen(recording, choice), choice), choice), choice)
+    for step in (chosen, examined, with_binary, finished):
+        try:
+            recording = step(recording, choice)
+        except MotioneseError as error:
+            # What was found so far may tell why.
+            for finding in recording.findings:
+                error.add_note(finding.sentence)
+            raise
+    return recording
 
 
 def finished(recording: Recording, choice: Choice) -> Recording:
