@@ -1,13 +1,13 @@
 """How long `motionese inspect` takes for a large table, beside pandas reading the same file.
 
 A table of 100,000 rows and 60 channels [rad] beside its time, once with six decimals as a
-controller logs them and once with all digits. For each, in a process of its own:
+controller logs them and once with all digits. For each:
 
-1. `pandas.read_csv`, the least of some turns, in time of the processor.
-2. What `motionese inspect` does from the file to the figure, less what it takes for the first
-   rows of the same table, which is what starting and drawing take whatever the size.
-3. Reading alone, and the most memory that reading and all of it hold beyond what the process held
-   before, as a multiple of the numbers themselves (48 MB).
+1. `pandas.read_csv`; reading alone; and what `motionese inspect` does from the file to the figure,
+   less what it takes for the first rows of the same table, as many as are drawn as they are, which
+   is what drawing takes whatever the size. In turns, in time of the processor: the medians.
+2. The most memory that reading and all of it hold beyond what the process held before, as a
+   multiple of the numbers themselves (48 MB), each in a process of its own.
 
     python benchmarks/reading_tables.py
 """
@@ -19,6 +19,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from statistics import median
 from time import process_time
 
 import numpy as np
@@ -26,7 +27,7 @@ import pandas as pd
 from rich.console import Console
 from rich.table import Table
 
-ROWS, CHANNELS, FEW, TURNS = 100_000, 60, 200, 5
+ROWS, CHANNELS, FEW, TURNS = 100_000, 60, 480, 7
 BYTES = ROWS * CHANNELS * 8
 TIMES, MEMORY = 2.0, 4.0
 """The targets: as many times as long as pandas, and as much memory as the numbers."""
@@ -42,13 +43,10 @@ def write_table(path: Path, rows: int, decimals: str | None) -> None:
 
 
 def seconds(call: Callable[[], object]) -> float:
-    """Return the least time of the processor of some calls [s], whatever else runs beside them."""
-    times = []
-    for _ in range(TURNS):
-        start = process_time()
-        call()
-        times.append(process_time() - start)
-    return min(times)
+    """Return the time of the processor of a call [s]."""
+    start = process_time()
+    call()
+    return process_time() - start
 
 
 def most_memory() -> int:
@@ -58,9 +56,10 @@ def most_memory() -> int:
 
 
 def measure(what: str, path: Path, few: Path) -> None:
-    """Print seconds, or bytes, of one thing; called in a process of its own."""
-    if what == "pandas":
-        print(seconds(lambda: pd.read_csv(path)))
+    """Print seconds, or bytes, of one thing, or write a kind of table; in a process of its own."""
+    if what in KINDS:
+        write_table(path, ROWS, KINDS[what])
+        write_table(few, FEW, KINDS[what])
         return
     from motionese.interfaces.commands.inspect import inspect_recordings
     from motionese.interfaces.commands.recording_options import as_read
@@ -70,12 +69,18 @@ def measure(what: str, path: Path, few: Path) -> None:
         plot = path.with_suffix(".svg")
         inspect_recordings(Console(file=io.StringIO()), source, plot, as_read(rate=None))
 
-    if what == "inspect":
-        print(seconds(lambda: inspect(path)) - seconds(lambda: inspect(few)))
-    elif what == "read":
-        print(seconds(lambda: read(path)))
+    inspect(few)
+    if what == "times":
+        calls = (
+            lambda: pd.read_csv(path),
+            lambda: read(path),
+            lambda: inspect(path),
+            lambda: inspect(few),
+        )
+        turns = zip(*([seconds(call) for call in calls] for _ in range(TURNS)), strict=True)
+        pandas, reading, whole, drawing = map(median, turns)
+        print(pandas, reading / pandas, (whole - drawing) / pandas)
     else:
-        inspect(few)
         before = most_memory()
         read(path) if what == "memory read" else inspect(path)
         print(most_memory() - before)
@@ -88,18 +93,18 @@ def main() -> None:
         False,
     )
     with tempfile.TemporaryDirectory() as folder:
-        for kind, decimals in KINDS.items():
+        for kind in KINDS:
             path, few = Path(folder) / "large.csv", Path(folder) / "few.csv"
-            write_table(path, ROWS, decimals)
-            write_table(few, FEW, decimals)
 
-            def of(what: str, path: Path = path, few: Path = few) -> float:
+            def of(what: str, path: Path = path, few: Path = few) -> list[float]:
                 command = [sys.executable, __file__, what, str(path), str(few)]
-                return float(subprocess.run(command, check=True, capture_output=True).stdout)
+                ran = subprocess.run(command, check=True, capture_output=True)
+                return list(map(float, ran.stdout.split()))
 
-            pandas = of("pandas")
-            times = [of(what) / pandas for what in ("read", "inspect")]
-            memory = [of(what) / BYTES for what in ("memory read", "memory inspect")]
+            # A process is said to hold what the one that starts it held: that must be little.
+            of(kind)
+            pandas, *times = of("times")
+            memory = [of(what)[0] / BYTES for what in ("memory read", "memory inspect")]
             missed |= times[-1] > TIMES or memory[-1] > MEMORY
             ratios = (f"{ratio:.2f} ×" for ratio in (*times, *memory))
             table.add_row(kind, f"{pandas:.3f}", *ratios)

@@ -12,6 +12,10 @@ from typing import Any
 class MotioneseError(Exception):
     """Something the user can put right; its text says what was got and what would be right."""
 
+    def __str__(self) -> str:
+        """Return the text on one line, whatever the names from a file that it tells."""
+        return " ".join(super().__str__().splitlines())
+
 
 class SettingError(MotioneseError):
     """A setting that does not exist, or a value outside its allowed range."""

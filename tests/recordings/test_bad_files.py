@@ -54,13 +54,14 @@ def files(tmp_path_factory):
     joints, bounds = io.BytesIO(), io.BytesIO()
     np.save(joints, rng.normal(size=(2, 6, 2)))
     np.save(bounds, np.array([[-1.0, -1.0], [1.0, 1.0]]))
-    return content | {"joints.npy": joints.getvalue(), "joint_bounds.npy": bounds.getvalue()}
+    arrays = {"joints.npy": joints.getvalue(), "joint_bounds.npy": bounds.getvalue()}
+    return content | arrays | {"alone.npy": joints.getvalue()}
 
 
 def put(folder, name, content, files):
     """Write one file, those of EIPL with the whole others beside it; return what is to be read."""
     folder.mkdir(exist_ok=True)
-    if not name.endswith(".npy"):
+    if not name.startswith("joint"):
         (folder / name).write_bytes(content)
         return folder / name
     for other in ("joints.npy", "joint_bounds.npy"):
@@ -69,10 +70,7 @@ def put(folder, name, content, files):
     return folder
 
 
-@pytest.mark.parametrize("name", ["m.csv", "m.npz", "joints.npy", "joint_bounds.npy"])
-@settings(max_examples=60)
-@given(data=st.data())
-def test_files_that_are_damaged(files, tmp_path, name, data):
+def tried_when_damaged(files, tmp_path, name, data):
     content = bytearray(files[name])
     if data.draw(st.booleans()):
         del content[data.draw(st.integers(0, len(content))) :]
@@ -81,6 +79,26 @@ def test_files_that_are_damaged(files, tmp_path, name, data):
             content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
 
     tried(put(tmp_path / "damaged", name, bytes(content), files))
+
+
+ALL = pytest.mark.parametrize(
+    "name", ["m.csv", "m.npz", "alone.npy", "joints.npy", "joint_bounds.npy"]
+)
+
+
+@ALL
+@settings(max_examples=60)
+@given(data=st.data())
+def test_files_that_are_damaged(files, tmp_path, name, data):
+    tried_when_damaged(files, tmp_path, name, data)
+
+
+@pytest.mark.slow
+@ALL
+@settings(max_examples=2000)
+@given(data=st.data())
+def test_more_files_that_are_damaged(files, tmp_path, name, data):
+    tried_when_damaged(files, tmp_path, name, data)
 
 
 @pytest.mark.parametrize("name", ["m.csv", "m.npz", "joints.npy"])

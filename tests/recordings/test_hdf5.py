@@ -152,6 +152,18 @@ def test_trajectories_of_maniskill_are_read(tmp_path):
     assert (told.episode, told.row, told.channel, told.count) == ("traj_0", 5, "actions_0", 11)
 
 
+def test_what_every_trajectory_of_maniskill_lacks_is_told_and_no_fault(tmp_path):
+    path = maniskill(tmp_path / "trajectory.h5")
+    given = {"strict": True, "ranges": {"*": (-99.0, 99.0)}}
+    assert "nothing was recorded" in Motions.read(path, **given, channels=["*"]).examined[0].what
+
+    about = json.loads(path.with_suffix(".json").read_text())
+    about["episodes"][4]["elapsed_steps"] = 200
+    path.with_suffix(".json").write_text(json.dumps(about))
+    with pytest.raises(RecordingError, match="tells 200 steps; refused as --strict asks for"):
+        Motions.read(path, **given)
+
+
 def test_observations_may_be_one_dataset_and_the_json_may_be_away(tmp_path):
     path = maniskill(tmp_path / "trajectory.h5", flat=True)
     path.with_suffix(".json").write_text("[")

@@ -249,9 +249,7 @@ def test_of_other_encodings_it_is_told_that_they_are_left_out(tmp_path):
     assert "left out: /protobuf (as protobuf)" in finding.sentence
 
 
-@settings(max_examples=60)
-@given(data=st.data(), chunked=st.booleans())
-def test_a_damaged_file_gives_a_recording_or_one_sentence(tmp_path, data, chunked):
+def tried_when_damaged(tmp_path, data, chunked):
     messages = [("/j", 0.1 * i, joint_state(i)) for i in range(4)]
     path = tape(tmp_path / "a.mcap", messages, use_chunking=chunked, enable_crcs=chunked)
     damaged = bytearray(path.read_bytes())
@@ -262,3 +260,16 @@ def test_a_damaged_file_gives_a_recording_or_one_sentence(tmp_path, data, chunke
         read(path)
     except MotioneseError as error:
         assert "\n" not in str(error)
+
+
+@settings(max_examples=60)
+@given(data=st.data(), chunked=st.booleans())
+def test_a_damaged_file_gives_a_recording_or_one_sentence(tmp_path, data, chunked):
+    tried_when_damaged(tmp_path, data, chunked)
+
+
+@pytest.mark.slow
+@settings(max_examples=2000)
+@given(data=st.data(), chunked=st.booleans())
+def test_many_damaged_files_do_too(tmp_path, data, chunked):
+    tried_when_damaged(tmp_path, data, chunked)

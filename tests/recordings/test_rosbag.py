@@ -248,6 +248,15 @@ def test_lists_that_are_too_wide_are_left_out_and_told(tmp_path):
 # --- types ---
 
 
+def test_a_line_break_in_a_name_is_none_in_the_sentence(tmp_path):
+    path = write(tmp_path / "bag", "db3", [("/grip\nper", "my_msgs/Grip", 0, {})])
+    forget(path)
+    with pytest.raises(RecordingError) as refusal:
+        read(path)
+
+    assert "topic /grip per is of type" in str(refusal.value)
+
+
 def test_a_type_that_is_defined_nowhere_is_named(tmp_path):
     messages = [("/grip", "my_msgs/Grip", 0, {}), ("/grip", "my_msgs/Grip", 1, {})]
     path = write(tmp_path / "bag", "db3", messages)

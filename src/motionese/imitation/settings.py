@@ -1,6 +1,6 @@
 """What may be varied about an imitation, as types with their allowed ranges."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
@@ -9,6 +9,7 @@ from motionese.body import BodySettings
 from motionese.caregiver import Manner
 from motionese.channels import Channels
 from motionese.errors import SettingError, unknown
+from motionese.faults import first_fault, refusal
 from motionese.imitation.repertoire import Grouping, Sharing
 from motionese.learning import Recognition, Training
 from motionese.network import InitialIO, Level, Scale
@@ -208,32 +209,18 @@ def checked(model: type[M], table: Table) -> M:
     try:
         return model.model_validate(table)
     except ValidationError as error:
-        first = error.errors()[0]
-        # Of a location, only what stands in the file: not which of several types was tried.
-        path: list[str] = []
-        here: Any = table
-        missing = first["loc"][-1:] if first["type"] == "missing" else ()
-        for part in first["loc"]:
-            if isinstance(here, list) and isinstance(part, int) and part < len(here):
-                path, here = [*path, str(part)], here[part]
-            elif isinstance(here, Mapping) and (part in here or part in missing):
-                path, here = [*path, str(part)], here.get(part)
-        name = ".".join(path)
-        if first["type"] == "extra_forbidden" or first["loc"][-1:] == ("[key]",):
-            known = [n for n in setting_names(model, path[:-1]) if n != name]
-            raise SettingError(unknown("setting", name, known)) from error
-        if first["type"] == "union_tag_invalid":
-            asked, among = first["ctx"]["tag"], first["ctx"]["expected_tags"]
+        fault = first_fault(error, table)
+        name, here = fault.name, fault.value
+        if fault.kind == "union_tag_invalid":
+            told = error.errors()[0]["ctx"]
             raise SettingError(
-                f"setting {name}.name = '{asked}': input should be {among}"
+                f"setting {name}.name = '{told['tag']}': input should be {told['expected_tags']}"
             ) from error
-        if first["type"] == "missing":
+        if fault.kind == "missing":
             few = f" = {here}: it has too few entries" if isinstance(here, list) else " is missing"
             raise SettingError(f"setting {name}{few}") from error
-        got = f" = {first['input']!r}" if not isinstance(first["input"], Mapping) else ""
-        what = first["msg"].removeprefix("Value error, ")
-        what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name}{got}: {what}" if name else what) from error
+        known = [n for n in setting_names(model, fault.path[:-1]) if n != name]
+        raise refusal(fault, known) from error
 
 
 def setting_names(model: type[BaseModel], path: list[str]) -> list[str]:

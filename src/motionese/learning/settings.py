@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import SettingError, kind_of, unknown
+from motionese.faults import first_fault, refusal
 
 Optimiser = Literal["descent", "momentum", "adam"]
 Schedule = Literal["constant", "cosine"]
@@ -24,12 +24,7 @@ class _InASentence(type(BaseModel)):  # type: ignore[misc]
         try:
             return super().__call__(*args, **given)
         except ValidationError as error:
-            first = error.errors()[0]
-            name = str(first["loc"][0]) if first["loc"] else ""
-            if first["type"] == "extra_forbidden":
-                raise SettingError(unknown("setting", name, cls.model_fields)) from error
-            what = first["msg"][:1].lower() + first["msg"][1:]
-            raise SettingError(f"setting {name} = {kind_of(given.get(name))}: {what}") from error
+            raise refusal(first_fault(error, given), cls.model_fields) from error
 
 
 class Training(BaseModel, metaclass=_InASentence):

@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
-from motionese.errors import ChannelError, RecordingError, SettingError, kind_of, unknown
+from motionese.errors import ChannelError, RecordingError, unknown
+from motionese.faults import first_fault, refusal
 from motionese.recordings.finding import Finding
 from motionese.recordings.recording import Recording
 
@@ -77,16 +78,11 @@ def choose(**given: Any) -> Choice:
     Raises:
         SettingError: A setting that does not exist, or a value that is not allowed.
     """
+    told = {name: value for name, value in given.items() if value is not None}
     try:
-        return Choice(**{name: value for name, value in given.items() if value is not None})
+        return Choice(**told)
     except ValidationError as error:
-        first = error.errors()[0]
-        name = ".".join(str(part) for part in first["loc"])
-        if first["type"] == "extra_forbidden":
-            raise SettingError(unknown("setting", name, Choice.model_fields)) from error
-        what = first["msg"].removeprefix("Value error, ")
-        what = what[:1].lower() + what[1:]
-        raise SettingError(f"setting {name} = {kind_of(first['input'])}: {what}") from error
+        raise refusal(first_fault(error, told), Choice.model_fields) from error
 
 
 def chosen(recording: Recording, choice: Choice) -> Recording:

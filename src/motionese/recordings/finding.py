@@ -8,9 +8,10 @@ from typing import Literal
 
 from motionese.errors import RecordingError
 
-Kind = Literal["leap", "column", "time", "unit", "left out", "converted"]
+Kind = Literal["leap", "column", "time", "unit", "left out", "converted", "layout"]
 """A step that no arm makes; a column, the times or the units misjudged, perhaps; what reading left
-out, or took for something else than what stands there."""
+out, or took for something else than what stands there; what is so in every file of a layout, which
+is worth knowing and no fault."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,8 @@ def merged(findings: Iterable[Finding]) -> tuple[Finding, ...]:
 
 
 def refuse_any(findings: Iterable[Finding]) -> None:
-    """Raise the first finding, and how many there are, as a `RecordingError`."""
-    found = tuple(findings)
+    """Raise the first finding that may be a fault, and how many more may, as a `RecordingError`."""
+    found = [finding for finding in findings if finding.kind != "layout"]
     if found:
         more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
         raise RecordingError(f"{found[0].sentence}{more}; refused as --strict asks for")

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
 
-from motionese.errors import ChannelError, MotionError, RecordingError
+from motionese.errors import ChannelError, MotionError, MotioneseError, RecordingError
 from motionese.recordings.binary import held, with_binary
 from motionese.recordings.choice import Choice, chosen, given_ranges
 from motionese.recordings.examination import examined
@@ -16,9 +16,6 @@ from motionese.recordings.finding import Finding, refuse_any
 from motionese.recordings.grid import even, resampled
 from motionese.recordings.rate import of_one_rate, rate_of
 from motionese.recordings.recording import LARGEST, Episode, Recording
-
-BLOCK = 512
-"""Rows in which a movement is sought at a time: most begin early."""
 
 
 def prepare(recording: Recording, choice: Choice) -> Recording:
@@ -31,7 +28,15 @@ def prepare(recording: Recording, choice: Choice) -> Recording:
             another unit, or span far more rows than there are; or, if strict, any finding.
         SettingError: A rate to resample to that is out of reach.
     """
-    return finished(with_binary(examined(chosen(recording, choice), choice), choice), choice)
+    for step in (chosen, examined, with_binary, finished):
+        try:
+            recording = step(recording, choice)
+        except MotioneseError as error:
+            # What was found so far may tell why.
+            for finding in recording.findings:
+                error.add_note(finding.sentence)
+            raise
+    return recording
 
 
 def finished(recording: Recording, choice: Choice) -> Recording:
@@ -189,12 +194,14 @@ def _still_rows(episode: Episode, limits: Float[ndarray, " D"]) -> int:
     values, observed = episode.values, episode.observed
     if not len(values):
         return 0
-    first = values[np.argmax(observed, axis=0), np.arange(len(limits))]
-    for start in range(0, len(values), BLOCK):
-        rows = slice(start, start + BLOCK)
+    began = 0 if observed[0].all() else np.argmax(observed, axis=0)
+    first, start = values[began, np.arange(len(limits))], 0
+    # Most begin to move early.
+    for here, seen in episode.blocks():
         # What was not observed may be NaN or infinite.
         with np.errstate(invalid="ignore"):
-            moved = ((np.abs(values[rows] - first) > limits) & observed[rows]).any(axis=1)
+            moved = ((np.abs(here - first) > limits) & seen).any(axis=1)
         if moved.any():
             return max(start + int(np.argmax(moved)) - 1, 0)
+        start += len(here)
     return len(values) - 1

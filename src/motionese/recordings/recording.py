@@ -1,6 +1,6 @@
 """What a file of recordings holds, before anything is chosen, filled in, or refused."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,6 +12,8 @@ from motionese.recordings.finding import Finding
 
 LARGEST = 1e100
 """Beyond this, squares and differences are no longer finite."""
+BLOCK = 512
+"""Rows that are looked at together, few enough to stay near the processor."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,14 @@ class Episode:
             columns = slice(columns[0], columns[-1] + 1) if columns else slice(0)
         values, observed = self.values[rows, columns], self.observed[rows, columns]
         return replace(self, values=values, observed=observed)
+
+    def blocks(
+        self, overlap: int = 0
+    ) -> Iterator[tuple[Float[ndarray, "B D"], Bool[ndarray, "B D"]]]:
+        """Yield values and what was observed, some rows at a time, and `overlap` of those after."""
+        for start in range(0, len(self.values) - overlap, BLOCK):
+            rows = slice(start, start + BLOCK + overlap)
+            yield self.values[rows], self.observed[rows]
 
     @property
     def known(self) -> Bool[ndarray, "T D"]:

@@ -10,9 +10,6 @@ from numpy import ndarray
 
 from motionese.recordings.recording import LARGEST, Recording
 
-BLOCK = 512
-"""Rows that are looked at together, few enough to stay near the processor."""
-
 
 class Series(NamedTuple):
     """One channel in one episode, where it was observed and is finite.
@@ -46,10 +43,8 @@ def largest_steps(recording: Recording) -> Float[ndarray, " D"]:
     """Return every channel's largest step between values that follow each other [its unit]."""
     result = np.zeros(len(recording.channels))
     for episode in recording.episodes:
-        for start in range(0, len(episode.values) - 1, BLOCK):
-            rows = slice(start, start + BLOCK + 1)
-            values = episode.values[rows]
-            if not (episode.observed[rows] & (np.abs(values) <= LARGEST)).all():
+        for values, observed in episode.blocks(overlap=1):
+            if not (observed.all() and np.abs(values).max() <= LARGEST):
                 columns = zip(episode.values.T, episode.known.T, strict=True)
                 steps = np.array([np.abs(np.diff(v[k])).max(initial=0) for v, k in columns])
                 result = np.maximum(result, steps)

@@ -1,6 +1,6 @@
 """What is in a recording, in numbers, whatever is wrong with it: what a user looks at first."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -11,14 +11,12 @@ from numpy import ndarray
 
 from motionese.recordings.preparation import still_ends
 from motionese.recordings.rate import DROPPED, rate_of_times
-from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.recording import BLOCK, Episode, Recording
 
 STILL_END = 0.01
 """Share of its range within which every channel stays in the still rows at an episode's ends."""
 STILL_STEP = 0.001
 """Share of its range by which a channel that is still changes at most from row to row."""
-BLOCK = 512
-"""Rows that are looked at together."""
 
 
 class EpisodeNumbers(NamedTuple):
@@ -216,8 +214,7 @@ def _cells(episode: Episode) -> _Cells:
     width = episode.values.shape[1]
     low, high = np.full(width, np.inf), np.full(width, -np.inf)
     unobserved, nan, infinite = (np.zeros(width, dtype=int) for _ in range(3))
-    for rows in _blocks(len(episode.values), 0):
-        values, observed = episode.values[rows], episode.observed[rows]
+    for values, observed in episode.blocks():
         known = observed & np.isfinite(values)
         if known.all():
             below = above = values
@@ -236,24 +233,23 @@ def _steps(
     """Return the steps of an episode; still are those up to `limits`."""
     width = episode.values.shape[1]
     total, count, still = np.zeros(width), np.zeros(width, dtype=int), np.zeros(width, dtype=int)
-    columns, together = np.isin(np.arange(width), usual), 0
-    for rows in _blocks(len(episode.values), 1):
-        values, observed = episode.values[rows], episode.observed[rows]
+    together = 0
+    for values, observed in episode.blocks(overlap=1):
         steps = np.abs(np.diff(values, axis=0))
-        known = None if whole else observed & np.isfinite(values)
-        both = np.True_ if known is None else known[1:] & known[:-1]
         here = steps <= limits
-        total += (steps if whole else np.where(both, steps, 0.0)).sum(axis=0)
-        count += len(steps) if whole else both.sum(axis=0)
-        still += (here & both).sum(axis=0)
-        together += int((here | ~both | ~columns).all(axis=1).sum())
+        if whole:
+            count += len(steps)
+        else:
+            known = observed & np.isfinite(values)
+            both = known[1:] & known[:-1]
+            count += both.sum(axis=0)
+            # Where nothing is known nothing moves.
+            steps, here = np.where(both, steps, 0.0), here | ~both
+            still -= (~both).sum(axis=0)
+        total += steps.sum(axis=0)
+        still += here.sum(axis=0)
+        together += int(here[:, usual].all(axis=1).sum())
     return _Steps(total, count, still, together / max(len(episode.values) - 1, 1))
-
-
-def _blocks(rows: int, overlap: int) -> Iterator[slice]:
-    """Yield the rows of an episode, so many at a time that they stay near the processor."""
-    for start in range(0, rows - overlap, BLOCK):
-        yield slice(start, start + BLOCK + overlap)
 
 
 def _jitter(times: list[Float[ndarray, " _"]], rate: float | None) -> float | None:

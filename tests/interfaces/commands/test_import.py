@@ -1,5 +1,7 @@
 """`motionese import`: recordings in, one file of motions out, chosen and prepared."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from typed import CHANNELS, NAMES, arm_motions, refused, typed, write_csv
@@ -89,6 +91,16 @@ def test_a_rate_is_given_where_none_is_told(arm):
 
     motions, _ = imported("--rate", "12.5")
     assert motions.rate_hz == 12.5
+
+
+def test_what_was_found_before_a_refusal_is_told(arm):
+    Path("words.csv").write_text("x,grip\n" + "0.1,open\n0.2,closed\n" * 5)
+    status, output, errors = typed("import", "words.csv", "--out", "new.npz")
+
+    assert (status, output) == (2, "")
+    found, refusal = errors.splitlines()
+    assert found == "! words.csv: channel 'grip': 'closed' is read as 0, 'open' as 1"
+    assert refusal.startswith("motionese: words.csv: tells neither times nor a rate")
 
 
 WRONG = {

@@ -35,6 +35,8 @@ def plainly(stopped: str | Callable[[], str], *, soft_wrap: bool = True) -> Iter
 
             yield Console(markup=False, highlight=False, soft_wrap=soft_wrap)
     except MotioneseError as error:
+        for note in getattr(error, "__notes__", []):
+            typer.echo(f"! {note}", err=True)
         raise _left(str(error)) from error
     except OSError as error:
         if error.filename is None:

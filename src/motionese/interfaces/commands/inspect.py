@@ -5,16 +5,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float
+from numpy import ndarray
 from rich.console import Console
 from rich.table import Table
 
 from motionese.errors import MotioneseError
 from motionese.interfaces.commands.motion_figure import MOST, write_figure
 from motionese.interfaces.commands.outputs import PICTURES, check_apart, check_output
-from motionese.interfaces.commands.summaries import number_table, tell_findings
+from motionese.interfaces.commands.terminal import number_table, tell_findings
 from motionese.recordings import (
     OPTIONS,
     Choice,
+    Episode,
     Finding,
     Recording,
     Survey,
@@ -51,8 +54,7 @@ def inspect_recordings(
     if refusal:
         console.print(f"! As it stands it cannot be learned from: {refusal}", soft_wrap=True)
     drawn = [e for e in found.episodes if len(e.values)]
-    shown = [e.part(columns=slice(MOST)) for e in drawn]
-    paths = [np.where(e.observed & np.isfinite(e.values), e.values, np.nan) for e in shown]
+    paths = [_path(e.part(columns=slice(MOST))) for e in drawn]
     channels = list(zip(found.channels, found.units, strict=True))
     title = f"{source.name}: {len(found.episodes)} episodes"
     write_figure(plot, paths, [e.name for e in drawn], channels, rate, title)
@@ -121,6 +123,12 @@ def _episodes(numbers: Survey, rate: float | None) -> Table:
         counts = (sum(getattr(e, n) for e in further) for n in ("holes", "nan", "infinite"))
         table.add_row(f"{len(further)} more", rows, *["–"] * 3, *map(_count, counts))
     return table
+
+
+def _path(episode: Episode) -> Float[ndarray, "T D"]:
+    """Return an episode's values, NaN where nothing was observed or they are not finite."""
+    known = episode.observed & np.isfinite(episode.values)
+    return episode.values if known.all() else np.where(known, episode.values, np.nan)
 
 
 def _counted(number: int, what: str) -> str:

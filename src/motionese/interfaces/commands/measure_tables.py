@@ -11,7 +11,7 @@ from rich.table import Table
 from motionese.analysis.statistics import estimate, holm
 from motionese.analysis.two_groups import Difference, difference
 from motionese.interfaces.commands.measured_group import Group, Manner
-from motionese.interfaces.commands.summaries import number_table, tell_findings
+from motionese.interfaces.commands.terminal import number_table, tell_findings
 from motionese.kinematics import MEASURES, Measures
 from motionese.kinematics.tracks import window_rows
 

@@ -91,9 +91,8 @@ def _figure(
     legend = LEGEND * ceil(len(paths) / LEGEND_COLUMNS) if few and len(paths) > 1 else 0.0
     height = rows * PANEL_HEIGHT + TOP + BOTTOM + legend
     # Panels that all hold the same need no layout that measures every text, which is most of the
-    # time that a figure takes.
-    figure = Figure(figsize=(WIDTH, height))
-    figure.set_layout_engine("none")
+    # time that a figure takes. matplotlib's types leave "none" out.
+    figure = Figure(figsize=(WIDTH, height), layout="none")  # type: ignore[arg-type]
     panels = figure.subplots(
         rows,
         columns,
@@ -119,7 +118,8 @@ def _figure(
                 alpha=1.0 if few else 0.35,
                 label=names[i] if few else None,
             )
-        panel.set_title(f"{name} [{unit}]" if unit else name)
+        # Told where it stands, it is not moved out of the way of ticks that are measured for that.
+        panel.set_title(f"{name} [{unit}]" if unit else name, y=1.0)
         panel.grid(visible=True, color=FAINT, alpha=0.2)
     for panel in panels[len(channels) :]:
         panel.set_visible(False)
@@ -143,9 +143,8 @@ def thinned(values: Float[ndarray, " T"]) -> tuple[Int[ndarray, " K"], Float[nda
         return np.arange(len(values)), values
     whole = len(values) // step * step
     blocks = values[:whole].reshape(-1, step)
-    with_nan = np.isnan(blocks)
-    low = np.where(with_nan, -np.inf, blocks).argmin(axis=1)
-    high = np.where(with_nan, -np.inf, blocks).argmax(axis=1)
-    rows = np.sort(np.stack([low, high], axis=1), axis=1) + np.arange(0, whole, step)[:, None]
+    lowest_is_nan = np.where(np.isnan(blocks), -np.inf, blocks)
+    ends = [lowest_is_nan.argmin(axis=1), lowest_is_nan.argmax(axis=1)]
+    rows = np.sort(np.stack(ends, axis=1), axis=1) + np.arange(0, whole, step)[:, None]
     rows = np.append(rows.ravel(), np.arange(whole, len(values)))
     return rows, values[rows]

@@ -1,15 +1,10 @@
-"""What commands write: looked at before they work for minutes; models and motions for others."""
+"""What commands write, looked at before they work for minutes."""
 
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from rich.console import Console
-
-from motionese.errors import MotioneseError, SettingError, StorageError
-from motionese.interfaces.commands.summaries import description, tell_findings
-from motionese.interfaces.onnx_export import TOLERANCE, export_onnx
-from motionese.learning import Motions, load
+from motionese.errors import SettingError, StorageError
 from motionese.recordings import FORMATS
 
 RECORDINGS = tuple(suffix for known in FORMATS.values() for suffix in known.suffixes)
@@ -54,28 +49,3 @@ def check_apart(sources: Iterable[Path], *outputs: Path | None) -> None:
                     f"{out}: lies in the folder that is read ({source}), and would count as one of "
                     "its recordings; give another place"
                 )
-
-
-def export_model(console: Console, model: Path, out: Path) -> None:
-    """Write one step of a model as ONNX, checked against the model, and tell how it agrees."""
-    check_output("--onnx", out, (".onnx",))
-    check_apart([model], out)
-    difference = export_onnx(out, load(model))
-    console.print(
-        f"{out}: one step (x, u → y, u_next); "
-        f"differs from the network by at most {difference:.1e}, allowed {TOLERANCE:g}"
-    )
-
-
-def export_motions(console: Console, source: Path, out: Path, to: str | None) -> None:
-    """Write motions in another format, and tell what was written."""
-    if source.suffix == MODEL_SUFFIX:
-        raise SettingError(f"{source}: a model, not recordings; write its step with --onnx FILE")
-    try:
-        motions = Motions.read(source)
-    except MotioneseError as error:
-        raise type(error)(f"{error} (with motionese import, whose .npz can be exported)") from error
-    check_apart([source], out)
-    motions.write(out, to)
-    console.print(f"{out}: {description(motions)}")
-    tell_findings(console, motions.examined)

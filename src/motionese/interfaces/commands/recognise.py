@@ -16,7 +16,7 @@ from motionese.channels import Channels
 from motionese.errors import ChannelError, unknown
 from motionese.interfaces.commands.initial_states import write_initial_states
 from motionese.interfaces.commands.outputs import RECORDINGS, check_apart, check_output
-from motionese.interfaces.commands.summaries import number_table, tell_findings
+from motionese.interfaces.commands.terminal import number_table, tell_findings
 from motionese.learning import Fit, Motions, RecognitionResult, load, read_for, recognise_all
 
 

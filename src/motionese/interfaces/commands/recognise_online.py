@@ -18,7 +18,7 @@ from motionese.interfaces.commands.belief_figure import write_belief_figure
 from motionese.interfaces.commands.online_trace import OnlineTrace, table_of, trace
 from motionese.interfaces.commands.outputs import PICTURES, check_apart, check_output
 from motionese.interfaces.commands.recognise import read_observed
-from motionese.interfaces.commands.summaries import number_table
+from motionese.interfaces.commands.terminal import number_table
 from motionese.interfaces.logs.training_logs import open_logs
 from motionese.learning import Motions, load, recognise_online
 

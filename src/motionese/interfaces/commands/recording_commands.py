@@ -34,7 +34,8 @@ def import_recordings(
     """
     with plainly("stopped; nothing was written") as console:
         from motionese.interfaces.commands.outputs import check_apart
-        from motionese.interfaces.commands.summaries import description, tell_findings
+        from motionese.interfaces.commands.summaries import description
+        from motionese.interfaces.commands.terminal import tell_findings
         from motionese.learning import Motions
 
         check_apart([source], out)
@@ -132,7 +133,7 @@ def export(
     """Write a model's step as ONNX (--onnx), or recordings in another format (--out)."""
     with plainly("stopped; nothing was written") as console:
         from motionese.errors import SettingError
-        from motionese.interfaces.commands.outputs import export_model, export_motions
+        from motionese.interfaces.commands.export import export_model, export_motions
 
         if onnx is not None and out is None and to is None:
             export_model(console, source, onnx)

@@ -1,29 +1,14 @@
 """What is told in the terminal of motions and models: tables, and words."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
-from rich.console import Console
 from rich.table import Table
 
 from motionese.channels import Channels
+from motionese.interfaces.commands.terminal import number_table
 from motionese.learning import Diagnosis, Fit, Motions
-from motionese.recordings import Finding
 from motionese.unit_interval import CLIP_HIGH, CLIP_LOW
-
-
-def number_table(*headings: str) -> Table:
-    """Return a table whose first column holds names and whose others hold numbers."""
-    table = Table(*headings)
-    for column in table.columns:
-        # Where there is no room a cell goes on in the next line: no digit is ever left out.
-        column.overflow = "fold"
-    table.columns[0].no_wrap = True
-    for column in table.columns[1:]:
-        column.justify = "right"
-    return table
 
 
 def error_table(fit: Fit) -> Table:
@@ -80,12 +65,6 @@ def share_beyond(motions: Motions) -> float:
     values, seen = np.concatenate(motions.values), np.concatenate(motions.observed)
     clipped = seen & ((values < lowest) | (values > highest))
     return int(clipped.sum()) / max(int(seen.sum()), 1)
-
-
-def tell_findings(console: Console, findings: Sequence[Finding]) -> None:
-    """Print what was found in a recording, a line each."""
-    for finding in findings:
-        console.print(f"! {finding.sentence}", soft_wrap=True)
 
 
 def description(motions: Motions) -> str:

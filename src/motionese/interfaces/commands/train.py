@@ -13,7 +13,8 @@ from motionese.errors import SettingError, StorageError, unknown
 from motionese.interfaces.commands.display import TrainingDisplay
 from motionese.interfaces.commands.model_commands import checkpoint_of
 from motionese.interfaces.commands.outputs import MODEL_SUFFIX, check_apart, check_output
-from motionese.interfaces.commands.summaries import description, error_table, tell_findings, verdict
+from motionese.interfaces.commands.summaries import description, error_table, verdict
+from motionese.interfaces.commands.terminal import tell_findings
 from motionese.interfaces.commands.training_start import (
     ORIGIN,
     Start,

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 from numpy import ndarray
-from pydantic import ValidationError
 
 from motionese.errors import needs
 from motionese.recordings.grid import JITTER
@@ -70,14 +69,6 @@ def times_unless_even(
         if np.all(np.abs(off) <= JITTER):
             return None
     return since_first
-
-
-def fault(error: ValidationError) -> str:
-    """Return the first fault that pydantic found on one line: where it is, and what."""
-    first = error.errors(include_url=False)[0]
-    where = ".".join(str(part) for part in first["loc"])
-    what = first["msg"].removeprefix("Value error, ")
-    return " ".join(f"{where}: {what}".split()) if where else what
 
 
 def why(error: BaseException) -> str:

@@ -60,10 +60,10 @@ def read_body(
         return None
     seen = np.ones(cells, dtype=bool)
     seen[gaps] = False
-    return _without_end(values[:cells].reshape(-1, narrow), seen.reshape(-1, narrow), words)
+    return without_end(values[:cells].reshape(-1, narrow), seen.reshape(-1, narrow), words)
 
 
-def _without_end(
+def without_end(
     values: Float[ndarray, "N K"], seen: Bool[ndarray, "N K"], words: list[list[str]]
 ) -> Body | None:
     """Return rows without those at the end that are empty: spreadsheets write such lines."""

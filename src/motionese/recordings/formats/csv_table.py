@@ -13,6 +13,7 @@ from numpy import ndarray
 
 from motionese.errors import RecordingError, SettingError
 from motionese.recordings.finding import Finding
+from motionese.recordings.formats.csv_arrow import LARGE, read_large_body
 from motionese.recordings.formats.csv_body import read_body
 from motionese.recordings.formats.csv_cells import is_number
 from motionese.recordings.formats.csv_layout import Layout, layout, rows_of
@@ -126,7 +127,12 @@ def _plainly(
             if is_text(name) or (cell and not is_number(cell))
         ]
         file.seek(marked + sum(len(line.encode()) for line in lines[: found.body]))
-        body = read_body(file, found.separator, len(header), textual)
+        start = file.tell()
+        asked = (file, found.separator, len(header), textual)
+        body = read_large_body(*asked) if path.stat().st_size > LARGE else None
+        if body is None:
+            file.seek(start)
+            body = read_body(*asked)
     if body is None:
         return None
     numbers, observed, words = body

@@ -9,8 +9,9 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
+from motionese.faults import described
 from motionese.recordings.finding import Finding
-from motionese.recordings.formats.conventions import WIDEST, fault, numbered, strings
+from motionese.recordings.formats.conventions import WIDEST, numbered, strings
 
 STATE, ACTION = "observation.state", "action"
 VERSIONS = ("v3.0", "v2.1", "v2.0")
@@ -79,7 +80,7 @@ def read_info(path: Path) -> Info:
         raise RecordingError(f"{file}: cannot be read: {error.strerror or error}") from error
     except ValidationError as error:
         raise RecordingError(
-            f"{file}: not the info.json of a LeRobotDataset: {fault(error)}"
+            f"{file}: not the info.json of a LeRobotDataset: {described(error)}"
         ) from error
 
 

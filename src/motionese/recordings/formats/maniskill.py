@@ -73,7 +73,7 @@ def _gaps(recording: Recording) -> Iterable[Finding]:
     if gaps:
         missing = recording.channels[int(np.argmin(gaps[0].observed[-1]))]
         yield Finding(
-            "left out",
+            "layout",
             recording.source,
             "nothing was recorded after the last observation: a gap in the last row",
             episode=gaps[0].name,

@@ -12,7 +12,8 @@ from numpy import ndarray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from motionese.errors import RecordingError
-from motionese.recordings.formats.conventions import fault, imported
+from motionese.faults import described
+from motionese.recordings.formats.conventions import imported
 from motionese.recordings.formats.writing import new_folder, write_file
 from motionese.recordings.recording import Episode, Recording
 
@@ -42,7 +43,7 @@ class TopicMetadata(BaseModel):
         except ValidationError as error:
             raise RecordingError(
                 f"{file}: its metadata '{METADATA_KEY}' is not what this version writes: "
-                f"{fault(error)}"
+                f"{described(error)}"
             ) from error
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from motionese.errors import RecordingError, SettingError
-from motionese.recordings.formats.conventions import UNREADABLE, fault, why
+from motionese.faults import described
+from motionese.recordings.formats.conventions import UNREADABLE, why
 from motionese.recordings.formats.npz_flat import read_flat
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.nature import judged
@@ -102,7 +103,7 @@ def _metadata(path: Path, file: Any) -> Metadata:
     try:
         return Metadata.model_validate_json(str(file[METADATA]))
     except ValidationError as error:
-        raise RecordingError(f"{path}: its metadata are damaged: {fault(error)}") from error
+        raise RecordingError(f"{path}: its metadata are damaged: {described(error)}") from error
 
 
 def _episode(path: Path, file: Any, i: int, name: str, width: int) -> Episode:

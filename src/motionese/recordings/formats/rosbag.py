@@ -12,9 +12,10 @@ from pathlib import Path, PurePosixPath
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from motionese.errors import RecordingError
+from motionese.faults import described
 from motionese.recordings.finding import Finding
 from motionese.recordings.formats.bag_files import COMPRESSED, READING, messages
-from motionese.recordings.formats.conventions import fault, imported, natural, why
+from motionese.recordings.formats.conventions import imported, natural, why
 from motionese.recordings.formats.log_recording import recording_of
 from motionese.recordings.formats.message_log import Find, Log, Track
 from motionese.recordings.formats.takes import Cuts
@@ -113,7 +114,7 @@ def _told(bag: Path) -> _Bag:
         return _Bag.model_validate(content["rosbag2_bagfile_information"])
     # What the parser raises depends on what is damaged.
     except Exception as error:
-        said = fault(error) if isinstance(error, ValidationError) else why(error)
+        said = described(error) if isinstance(error, ValidationError) else why(error)
         raise RecordingError(
             f"{file}: not what `ros2 bag record` writes ({said}); `ros2 bag reindex` mends it"
         ) from error
