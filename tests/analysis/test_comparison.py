@@ -107,6 +107,7 @@ def test_the_same_runs_give_the_same_bytes_and_links_lead_to_them_from_elsewhere
         assert (own / file).read_bytes() == (tmp_path / "some where" / file).read_bytes()
 
 
+@pytest.mark.slow
 def test_other_settings_and_other_presets_are_told(kept, tmp_path):
     measured = measures_table(range(8))
     slow = read_settings("order", ["network.levels.cs.tau=90"])
@@ -121,6 +122,7 @@ def test_other_settings_and_other_presets_are_told(kept, tmp_path):
     assert "decide nothing" not in page.text
 
 
+@pytest.mark.slow
 def test_where_nothing_is_kept_these_runs_are_all(nothing_kept, own, tmp_path):
     page = written([own / "order"], tmp_path / "report.html")
     assert "What these runs say; none are kept in this version of motionese" in page.text
@@ -128,6 +130,7 @@ def test_where_nothing_is_kept_these_runs_are_all(nothing_kept, own, tmp_path):
     assert "medians lie" not in page.text and "Medians over your seeds." in page.text
 
 
+@pytest.mark.slow
 def test_folders_of_one_name_are_told_apart_by_their_paths(nothing_kept, tmp_path):
     folders = [
         write_reported(tmp_path / name / "order", measures_table(range(2))) for name in ("a", "b")

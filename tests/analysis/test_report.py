@@ -167,6 +167,7 @@ def test_one_seed_and_again_the_same_bytes(tmp_path, make_run, unrendered):
     assert [path for path in first if first[path] != second[path]] == []
 
 
+@pytest.mark.slow
 def test_nothing_but_a_diverged_run(tmp_path, make_run):
     make_run(tmp_path, TD_MD, 0, end="diverged")
     report = write_report(tmp_path)

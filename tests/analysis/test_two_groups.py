@@ -30,6 +30,7 @@ def test_groups_that_are_apart():
     assert (swapped.effect, swapped.p, swapped.value) == (-1.0, found.p, -found.value)
 
 
+@pytest.mark.slow
 def test_the_interval_covers_as_often_as_it_says():
     rng = np.random.default_rng(1)
     found = [difference(rng.normal(2, 1, 20), rng.normal(1, 2, 25)) for _ in range(40)]

@@ -106,6 +106,7 @@ def test_follows_strokes_with_less_than_a_step_of_lag(arm, rng, minimum_jerk):
         assert min(late) < 0.015
 
 
+@pytest.mark.slow
 def test_ranges_hold_what_occurs_and_not_much_more(rng, minimum_jerk):
     units = []
     for task in TASKS.values():

@@ -47,6 +47,7 @@ def test_keeps_the_marker_near_the_middle(exact_body, who, stroke, minimum_jerk,
     assert np.sqrt((off**2).mean(axis=0)).max() < 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("who", [perform, demonstrate])
 def test_ranges_hold_what_occurs_and_not_much_more(body, who, minimum_jerk, rng):
     strokes = [(a, b) for a in CORNERS for b in CORNERS if a != b]

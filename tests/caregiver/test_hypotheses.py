@@ -19,6 +19,7 @@ def way_of(name, task=PUSHING_BUTTONS):
     return intended_way(task.sequence(name), task)
 
 
+@pytest.mark.slow
 def test_strokes_of_hands_that_stray_by_2_cm_are_seen_rightly():
     rng = np.random.default_rng(7)
     known = [s for length in (1, 2, 3, 4) for s in PUSHING_BUTTONS.sequences(length)]

@@ -36,6 +36,7 @@ def test_a_run_is_asked_for_by_condition_and_seed(folder, small_settings, asked)
     assert [e.name for e in robot.learner.experiences] == [e.name for e in written.experiences]
 
 
+@pytest.mark.slow
 def test_of_a_whole_folder_the_latest_robot_is_taken(folder):
     assert robot_of(folder).seed == 7
 

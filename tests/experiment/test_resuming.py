@@ -74,6 +74,7 @@ def test_another_seed_ends_with_other_bits(tmp_path, small_settings, undisturbed
     assert other["loop-01.safetensors"] != undisturbed["loop-01.safetensors"]
 
 
+@pytest.mark.slow
 def test_a_file_that_changed_is_told_and_made_again_as_is_said(
     tmp_path, small_settings, undisturbed
 ):

@@ -81,6 +81,7 @@ def test_the_map_is_walked_with_the_keys_and_tells_what_is_there(explorer):
     assert sum(int(share.strip(" %")) for share in shares) == pytest.approx(100, abs=2)
 
 
+@pytest.mark.slow
 def test_a_finger_chooses_on_the_map_and_the_robot_comes_back_when_it_tries(open_page, taught):
     window = {"viewport": {"width": 390, "height": 844}, "has_touch": True}
     person = open_page(taught, **window).arrives()

@@ -76,6 +76,7 @@ async (motions) => {
 """How long the films of lessons are whose motions last so many seconds."""
 
 
+@pytest.mark.slow
 def test_a_film_is_short_however_long_the_motion(person):
     lengths = person.page.evaluate(LASTING, [0.3, 1.3, 2.7, 4.1, 20])
     assert lengths == sorted(lengths)

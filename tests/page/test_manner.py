@@ -20,6 +20,7 @@ def measured(person):
     return {first.strip(): [told.replace("\xa0", " ") for told in rest] for first, *rest in cells}
 
 
+@pytest.mark.slow
 def test_the_wish_for_a_pause_goes_when_it_is_heard(person):
     hurried = shows(person, 0.0)
     assert WISH in person.guide() and WISH in person.page.text_content("#verdict-spoken")
@@ -37,6 +38,7 @@ def test_the_wish_for_a_pause_goes_when_it_is_heard(person):
     assert measured(person) == paused, "it is told whoever comes"
 
 
+@pytest.mark.slow
 def test_the_hand_of_the_keyboard_pauses_at_corners(person):
     person.goes_to("surface")
     for key in ("ArrowDown", "ArrowUp", "Space", "ArrowLeft", "ArrowDown", "Enter"):
@@ -58,6 +60,7 @@ FITS = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 820, 1280])
 def test_what_is_measured_and_wished_fits_the_window(open_page, taught, width):
     person = open_page(taught, viewport={"width": width, "height": 900}).arrives()

@@ -2,6 +2,7 @@
 
 import time
 
+import pytest
 from page.conftest import FILMED
 
 PRIMITIVES = ("UR ↓", "LR ↑", "UR ←", "UL ↓", "LL ↑")
@@ -16,6 +17,7 @@ addEventListener("pointermove", (event) => {
 PAIRS = ("UR ↓↑", "LR ↑←", "UR ←↓", "UL ↓↑", "LL ↑↓", "LR ↑↓")
 
 
+@pytest.mark.slow
 def test_every_sample_of_the_pointer_reaches_the_robot(person):
     """However many a busy machine takes; how many that are is what the benchmark measures."""
     person.page.evaluate(COUNTING)
@@ -30,6 +32,7 @@ def test_every_sample_of_the_pointer_reaches_the_robot(person):
     assert person.points_sent() == taken
 
 
+@pytest.mark.slow
 def test_the_arrows_are_what_was_drawn(person):
     read = {}
     for motion in (*PRIMITIVES, *PAIRS):
@@ -40,6 +43,7 @@ def test_the_arrows_are_what_was_drawn(person):
     assert len(set(PAIRS) - set(wrong)) >= 4, wrong
 
 
+@pytest.mark.slow
 def test_something_red_before_the_camera_is_followed(person):
     person.presses("webcam")
     person.presses("webcam-show")
@@ -56,6 +60,7 @@ def test_something_red_before_the_camera_is_followed(person):
     person.page.get_by_test_id("notebook").get_by_text("webcam").first.wait_for()
 
 
+@pytest.mark.slow
 def test_the_keyboard_is_enough(person):
     keys = person.page.keyboard
     person.goes_to("surface")
@@ -76,6 +81,7 @@ def test_the_keyboard_is_enough(person):
     assert person.state()["at"] < end, "keys move in time"
 
 
+@pytest.mark.slow
 def test_everything_has_a_name_for_who_cannot_see(person):
     person.shows("UR ↓")
     named = person.names()
@@ -83,6 +89,7 @@ def test_everything_has_a_name_for_who_cannot_see(person):
     assert [role for role, name in named if not name] == []
 
 
+@pytest.mark.slow
 def test_the_view_stays_where_it_is_under_the_pen(open_page, taught):
     person = open_page(taught, viewport={"width": 390, "height": 844}).arrives()
     person.shows("UR ↓")

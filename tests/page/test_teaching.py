@@ -4,6 +4,7 @@ import pytest
 from page.person import changed
 
 
+@pytest.mark.slow
 def test_the_robot_moves_on_the_canvas(person):
     before = person.sees("robot")
     person.shows("UR ↓")
@@ -17,6 +18,7 @@ def test_the_robot_moves_on_the_canvas(person):
     assert changed(before, person.sees("robot")) > 0.004
 
 
+@pytest.mark.slow
 def test_the_arm_follows_the_pen_and_the_page_shows_what_is_believed(person):
     belief = person.page.get_by_test_id("belief")
     before, frames = person.sees("robot"), person.state()["frames"]
@@ -57,6 +59,7 @@ def test_a_newborn_learns_and_grows_and_is_found_again(parent):
     assert "UL ↓" in parent.page.get_by_test_id("notebook").text_content()
 
 
+@pytest.mark.slow
 def test_every_practice_is_played_and_then_one_time_moves_everything(person):
     person.shows("UR ↓")
     played = person.state()["tries"]
@@ -82,6 +85,7 @@ def test_every_practice_is_played_and_then_one_time_moves_everything(person):
     assert "↓" in person.page.get_by_test_id("time-axis").text_content()
 
 
+@pytest.mark.slow
 def test_practices_can_be_skipped_and_stay_still_where_that_is_wanted(open_page, taught):
     person = open_page(taught, reduced_motion="reduce").arrives()
     person.shows("UR ←")
@@ -98,6 +102,7 @@ def test_practices_can_be_skipped_and_stay_still_where_that_is_wanted(open_page,
     assert state["tries"] < 6
 
 
+@pytest.mark.slow
 def test_a_line_of_the_notebook_is_replayed_and_is_what_is_imitated_next(person):
     person.shows("UR ↓")
     person.lets_it_imitate()
@@ -112,6 +117,7 @@ def test_a_line_of_the_notebook_is_replayed_and_is_what_is_imitated_next(person)
     assert person.page.get_by_test_id("chart-curve").locator("figure").count() > 1
 
 
+@pytest.mark.slow
 def test_a_page_that_comes_again_shows_what_would_be_imitated(person):
     person.shows("UR ↓")
     person.page.reload()
@@ -120,6 +126,7 @@ def test_a_page_that_comes_again_shows_what_would_be_imitated(person):
     assert "Robot of " in person.reads("origin")
 
 
+@pytest.mark.slow
 def test_the_page_does_not_grow_with_the_notebook(person):
     person.shows("UR ↓")
     entries = """
@@ -131,6 +138,7 @@ def test_the_page_does_not_grow_with_the_notebook(person):
     assert person.tall() <= before + 20
 
 
+@pytest.mark.slow
 def test_high_contrast_keeps_what_is_told_by_colour(open_page, taught):
     person = open_page(taught, forced_colors="active").arrives()
     person.shows("UR ↓")
@@ -144,6 +152,7 @@ def test_high_contrast_keeps_what_is_told_by_colour(open_page, taught):
     assert plain != following
 
 
+@pytest.mark.slow
 def test_targets_are_large_enough_for_a_finger(open_page, taught):
     window = {"viewport": {"width": 390, "height": 844}, "has_touch": True}
     person = open_page(taught, **window).arrives()

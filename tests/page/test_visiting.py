@@ -7,6 +7,7 @@ import pytest
 from page.serving import served
 
 
+@pytest.mark.slow
 def test_nothing_is_asked_of_others_and_nothing_complains(person):
     person.shows("UR ↓")
     person.lets_it_imitate()
@@ -16,6 +17,7 @@ def test_nothing_is_asked_of_others_and_nothing_complains(person):
     assert person.complaints == []
 
 
+@pytest.mark.slow
 def test_the_policy_lets_nothing_else_in(taught):
     policy = urlopen(taught.address).headers["content-security-policy"]
     rules = {name: set(sources) for name, *sources in map(str.split, policy.split(";"))}
@@ -26,6 +28,7 @@ def test_the_policy_lets_nothing_else_in(taught):
     )
 
 
+@pytest.mark.slow
 def test_a_second_page_is_told_and_may_take_over(open_page, taught):
     first, second = open_page(taught).arrives(), open_page(taught)
     second.page.goto(second.address)
@@ -41,6 +44,7 @@ def test_a_second_page_is_told_and_may_take_over(open_page, taught):
     assert [*first.complaints, *second.complaints] == []
 
 
+@pytest.mark.slow
 def test_a_killed_worker_comes_back_with_the_session(person, taught):
     before = person.state()["notebook"]
     person.shows("LR ↑")

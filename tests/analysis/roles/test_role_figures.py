@@ -54,6 +54,7 @@ def test_all_figures_of_a_lesson_that_asks_for_order(data, table):
     assert {"TD/MD", "TND/MND", "LR ↑↓", "↑↓"} <= set(words(found["symbols"].figure))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["TD/MD", "TND/MND"])
 def test_one_condition_of_one_seed(tmp_path, make_run, name):
     make_run(tmp_path, condition(name), 4, study=read_settings("order"))
@@ -84,6 +85,7 @@ def test_runs_that_were_not_examined(tmp_path, make_run):
     assert list(drawn(data, seed_table(data))) == ["recall"]
 
 
+@pytest.mark.slow
 def test_your_runs_are_drawn_over_others(data, table):
     yours = table[table["seed"] == 0]
     for each in table_figures(table, data.looks, 0.5, yours):

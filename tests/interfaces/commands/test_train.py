@@ -122,6 +122,7 @@ def stopped_at(monkeypatch):
     return at
 
 
+@pytest.mark.slow
 def test_a_training_that_was_stopped_ends_as_one_that_was_not(arm, stopped_at):
     trained_model(*LONGER, "--log", "jsonl")
     whole, log = (arm / "new.safetensors").read_bytes(), (arm / "new.log.jsonl").read_bytes()
@@ -317,6 +318,7 @@ def trained_on(*arguments):
     return load("new.safetensors"), output
 
 
+@pytest.mark.slow
 def test_a_training_that_has_ended_goes_on_to_more_epochs(arm):
     first, _ = trained_on("--epochs", "200")
     second, told = trained_on("--epochs", "400", "--resume")
