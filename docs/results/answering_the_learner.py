@@ -47,7 +47,9 @@ def lines(kept: Path) -> Iterator[str]:
         if not (kept / preset).is_dir():
             continue
         study = read_settings(preset)
-        measures, changed = (pd.read_csv(kept / preset / name) for name in TABLES)
+        measures = pd.read_csv(kept / preset / "measures.csv")
+        file = kept / preset / "changes.csv"
+        changed = pd.read_csv(file) if file.is_file() else None
         seeds = sorted(set(measures["seed"]))
         yield f"## {title}\n"
         yield f"Preset `{preset}`, {len(seeds)} seeds, {seeds[0]}–{seeds[-1]}.\n"
@@ -57,8 +59,9 @@ def lines(kept: Path) -> Iterator[str]:
         for name in FIGURES:
             if (kept / preset / f"{name}.png").is_file():
                 yield f"\n![{title}: {name.replace('_', ' ')}]({kept.name}/{preset}/{name}.png)"
-        yield "\n*When things changed: medians, with the smallest and the largest value.*\n"
-        yield from table(changes_table(changed, [c.name for c in study.conditions]))
+        if changed is not None:
+            yield "\n*When things changed: medians, with the smallest and the largest value.*\n"
+            yield from table(changes_table(changed, [c.name for c in study.conditions]))
         yield "\n*Measures: medians [95 %].*\n"
         yield from table(_medians(study, measures))
         yield ""
@@ -79,9 +82,10 @@ if __name__ == "__main__":
     for folder in map(Path, sys.argv[1:]):
         place = kept / read_reported(folder).preset
         place.mkdir(parents=True, exist_ok=True)
-        for name in TABLES:
-            rows = pd.read_csv(folder / name)
-            rows.to_csv(place / name, index=False, float_format="%.6g", lineterminator="\n")
-        for name in FIGURES:
-            shutil.copyfile(folder / "figures" / f"{name}.png", place / f"{name}.png")
+        for file in (folder / name for name in TABLES if (folder / name).is_file()):
+            rows = pd.read_csv(file)
+            rows.to_csv(place / file.name, index=False, float_format="%.6g", lineterminator="\n")
+        for file in (folder / "figures" / f"{name}.png" for name in FIGURES):
+            if file.is_file():
+                shutil.copyfile(file, place / file.name)
     kept.with_suffix(".md").write_text("\n".join(lines(kept)), encoding="utf-8")

@@ -102,3 +102,10 @@ def test_other_designs_have_other_tests_or_none():
     found = planned_findings(read_settings("scaffolding"), chosen, chosen)
     assert [f.verdict for f in found if "easiest" in f.text][-1] == "holds"
     assert planned_findings(read_settings("settled"), chosen, chosen) == []
+
+
+def test_a_fourth_level_is_tested_though_nothing_answers_the_learner():
+    deeper = measures({"M4": 0.2, "M3": 0.6})
+    columns = {"end_of_stage_3_cm": deeper["loops_needed"], "untrained_cm": deeper["loops_needed"]}
+    found = planned_findings(read_settings("four_levels"), deeper.assign(**columns), None)
+    assert [f.family for f in found] == ["Fourth level"] * 2

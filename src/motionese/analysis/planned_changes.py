@@ -14,13 +14,15 @@ TWO_BY_TWO = [FIXED, LEARNER, CAREGIVER, BOTH]
 CHOOSING, DEPTH = ["easiest", "progress", "random"], ["M4", "M3"]
 
 
-def planned_findings(study: Study, by_seed: pd.DataFrame, changed: pd.DataFrame) -> list[Finding]:
+def planned_findings(
+    study: Study, by_seed: pd.DataFrame, changed: pd.DataFrame | None
+) -> list[Finding]:
     """Return what runs say to the tests of the plan, if they are of one of its designs.
 
     Args:
         study: The settings of the runs.
         by_seed: Their measures, as of `seed_table`.
-        changed: When lesson and network changed, as of `changes`.
+        changed: When lesson and network changed, as of `changes`; None where nothing answers.
     """
     last = f"end_of_stage_{len(study.stages)}_cm"
 
@@ -29,7 +31,7 @@ def planned_findings(study: Study, by_seed: pd.DataFrame, changed: pd.DataFrame)
         return table.reindex(columns=[c.name for c in study.conditions]).astype(float)
 
     names, tests = [c.name for c in study.conditions], list[PlannedTest]()
-    if names == TWO_BY_TWO:
+    if changed is not None and names == TWO_BY_TWO:
         needed = censored(changed, NEEDED, "loops").reindex(columns=names)
         tests += _crossed("Loops needed", "loops until the last lesson is mastered", needed)
         tests += _crossed("Final error", "error at the end [cm]", wide(last))
@@ -39,7 +41,7 @@ def planned_findings(study: Study, by_seed: pd.DataFrame, changed: pd.DataFrame)
         text = "Roles separate more if the network changes before the lesson does"
         measured = f"{LEARNER} − {CAREGIVER}, separation [1]"
         tests.append(PlannedTest("Order of change", text, measured, order))
-    elif names == CHOOSING:
+    elif changed is not None and names == CHOOSING:
         needed = censored(changed, DEMONSTRATIONS, "demonstrations").reindex(columns=names)
         tests += _chosen("Demonstrations needed", "demonstrations until mastered", needed)
         tests += _chosen("Final error", "error at the end [cm]", wide(last))

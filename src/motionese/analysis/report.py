@@ -65,8 +65,7 @@ def write_report(run_folder: Path) -> Report:
     results = [judge(claim) for claim in claims(measures)] if has_its_design(study) else []
     planned = {preset: by_seed} if results and (preset := preset_of(study)) else {}
     tested, sentences = findings(planned), answer(planned)
-    if changed is not None:
-        tested += planned_findings(study, by_seed, changed)
+    tested += planned_findings(study, by_seed, changed)
     tables = {"loops": data.loops, "development": data.development, **data.novel}
     tables |= {"slow_state_map": data.slow_state_map, "map_numbers": numbers}
     tables |= {"online": data.online, "switches": data.switches}
