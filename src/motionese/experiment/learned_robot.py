@@ -30,7 +30,7 @@ def robot_of(path: Path) -> TrainedRobot:
             written last.
 
     Raises:
-        RunFolderError: No run folder, or no such run in it.
+        RunFolderError: No run folder, no such run in it, or a file of it has changed.
         SettingError: Settings that this version does not know.
         StorageError: A checkpoint that cannot be read.
     """
@@ -46,5 +46,6 @@ def robot_of(path: Path) -> TrainedRobot:
         raise RunFolderError(f"{path}: there is no run of this name with a whole loop")
     last = {run: checkpoint_path(run.folder, run.loops_done()) for run in runs}
     run = max(runs, key=lambda r: last[r].stat().st_mtime)
+    run.check()
     checkpoint = read_checkpoint(last[run], run.origin(settings))
     return TrainedRobot(settings, run.seed, checkpoint.learner)
