@@ -11,11 +11,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pandas as pd
-from keep import table
+from keep import table, tested
 
 from motionese.analysis.cells import Table, with_interval
 from motionese.analysis.changes import changes_table
-from motionese.analysis.page_tables import findings_rows
 from motionese.analysis.planned_changes import planned_findings
 from motionese.analysis.reported import read_reported
 from motionese.analysis.statistics import estimate
@@ -53,9 +52,7 @@ def lines(kept: Path) -> Iterator[str]:
         seeds = sorted(set(measures["seed"]))
         yield f"## {title}\n"
         yield f"Preset `{preset}`, {len(seeds)} seeds, {seeds[0]}–{seeds[-1]}.\n"
-        found = findings_rows(planned_findings(study, measures, changed))
-        rows = [[f"{what}<br>{measured}", *row] for what, measured, *row in found.rows]
-        yield from table(Table(found.head, rows))
+        yield from tested(planned_findings(study, measures, changed))
         for name in FIGURES:
             if (kept / preset / f"{name}.png").is_file():
                 yield f"\n![{title}: {name.replace('_', ' ')}]({kept.name}/{preset}/{name}.png)"

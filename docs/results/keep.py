@@ -12,6 +12,7 @@ from motionese.analysis.beside_kept import beside_kept
 from motionese.analysis.cells import NONE, Table
 from motionese.analysis.comparison_page import groups
 from motionese.analysis.mochizuki2013 import answer, findings
+from motionese.analysis.mochizuki2013.findings import Finding
 from motionese.analysis.page_tables import findings_rows
 
 HERE = Path(__file__).parent
@@ -50,10 +51,7 @@ def lines(here: Path) -> Iterator[str]:
         return
     yield from (f"{sentence}\n" for sentence in answer(kept))
     yield "## Findings\n"
-    head, rows = findings_rows(findings(kept))
-    yield from table(
-        Table(head, [[f"{what}<br>{measured}", *row] for what, measured, *row in rows])
-    )
+    yield from tested(findings(kept))
     for preset, measures in kept.items():
         seeds, version = runs[preset].seeds, runs[preset].version
         yield f"\n## {preset}\n"
@@ -73,6 +71,14 @@ def medians(measures: pd.DataFrame) -> Table:
         for title, cells in under
     ]
     return Table(["measure", *conditions], rows)
+
+
+def tested(found: Sequence[Finding]) -> Iterator[str]:
+    """Yield the table of what was planned to be tested."""
+    head, rows = findings_rows(found)
+    yield from table(
+        Table(head, [[f"{what}<br>{measured}", *row] for what, measured, *row in rows])
+    )
 
 
 def table(cells: Table) -> Iterator[str]:

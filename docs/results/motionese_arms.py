@@ -10,11 +10,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pandas as pd
-from keep import table
+from keep import table, tested
 
 from motionese.analysis.cells import Table, with_interval
 from motionese.analysis.motionese_arms import Arms, arm_findings, arm_table
-from motionese.analysis.page_tables import findings_rows
 from motionese.analysis.statistics import estimate
 
 SHOWN = (
@@ -33,9 +32,7 @@ def lines(arms: Arms) -> Iterator[str]:
     """Yield the lines of the page."""
     yield ABOUT
     yield "## Findings\n"
-    head, rows = findings_rows(arm_findings(arms))
-    rows = [[f"{what}<br>{measured}", *row] for what, measured, *row in rows]
-    yield from table(Table(head, rows))
+    yield from tested(arm_findings(arms))
     yield "\n## Arms\n"
     cells = [
         [name, str(len(arm)), *(with_interval(estimate(_numbers(arm, m))) for m in SHOWN)]

@@ -103,6 +103,9 @@ def test_a_file_that_changed_is_told_and_made_again_as_is_said(
         assert left_on_disk(tmp_path) == undisturbed
     flip(listing, 30)
     refused(f"{listing} has changed since it was written: remove {tmp_path}, and the same")
+    for asked in (run.ended, run.loops_done):
+        with pytest.raises(RunFolderError, match=f"remove {tmp_path}, and the same"):
+            asked()
 
 
 def flip(path, place):

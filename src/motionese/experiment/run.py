@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -55,6 +56,7 @@ from motionese.imitation import (
 ENDED, INSIDE = "ended.json", "inside.npz"
 EMERGED = "emerged_"
 """Columns of `development.csv` begin so that tell how much has emerged in a level."""
+Listed = TypeVar("Listed")
 AGAIN = "the same `motionese reproduce` command writes the tables again from the checkpoints"
 
 
@@ -83,16 +85,17 @@ class Run:
 
     def loops_done(self) -> int:
         """Return the number of its last whole loop, 0 before the first."""
-        return len(checkpoints_in(self.folder))
+        return len(self._listed(checkpoints_in))
 
     def ended(self) -> Row | None:
         """Return how the run ended (`status`, `reason`, `seconds`), or None while it has not.
 
         Raises:
-            StorageError: The file that tells it cannot be read, or has changed.
+            RunFolderError: The list of its files has changed.
+            StorageError: The file that tells it cannot be read.
         """
         path = self.folder / ENDED
-        if not path.is_file() or ENDED not in listed(self.folder):
+        if not path.is_file() or ENDED not in self._listed(listed):
             return None
         try:
             return dict(json.loads(path.read_text()))
@@ -107,13 +110,7 @@ class Run:
         Raises:
             RunFolderError: One has changed; the text says how it is made again.
         """
-        try:
-            found, checkpoints = changed(self.folder), checkpoints_in(self.folder)
-        except StorageError as error:
-            raise RunFolderError(
-                f"{error}: remove {self.folder}, and the same `motionese reproduce` command makes "
-                "the run again"
-            ) from error
+        found, checkpoints = self._listed(changed), self._listed(checkpoints_in)
         ended = (self.folder / ENDED).exists()
         found = [
             path
@@ -129,6 +126,16 @@ class Run:
                     "`motionese reproduce` command repeats these loops"
                 )
             raise RunFolderError(f"{told(found[0])}: {what}")
+
+    def _listed(self, read: Callable[[Path], Listed]) -> Listed:
+        """Return what is read by the list of its files."""
+        try:
+            return read(self.folder)
+        except StorageError as error:
+            raise RunFolderError(
+                f"{error}: remove {self.folder}, and the same `motionese reproduce` command makes "
+                "the run again"
+            ) from error
 
 
 def runs_in(folder: Path, settings: Study, shown: str = "") -> list[Run]:
