@@ -14,6 +14,7 @@ from motionese.experiment import condition_named, read_settings
 from motionese.experiment.digests import list_files
 from motionese.experiment.many_runs import Job, _failure, go_through_all, longest_first
 from motionese.experiment.run import Run
+from motionese.experiment.workers import local_workers
 
 
 class Heard:
@@ -30,6 +31,8 @@ class Heard:
         self.ended.append((job.name, failure))
 
     def go_through_all(self, jobs, workers):
+        if isinstance(workers, int):
+            workers = local_workers(workers, told=print)
         return go_through_all(jobs, workers, loop_done=self.loop_done, run_ended=self.run_ended)
 
 

@@ -23,7 +23,12 @@ def environment() -> dict[str, Any]:
     """Return the versions of Python and of the packages that results depend on, and the machine."""
     return {
         "python": platform.python_version(),
-        **{package: metadata.version(package) for package in PACKAGES},
+        **versions(),
         "machine": f"{platform.system()} {platform.machine()}",
         "cores": os.cpu_count(),
     }
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of the packages that results depend on."""
+    return {package: metadata.version(package) for package in PACKAGES}

@@ -1,26 +1,24 @@
-"""Many runs at once: processes of one core each, restarted when they die, told of as they go."""
+"""Many runs at once: given to workers, given again when these die, told of as they go."""
 
-import logging
-import os
-import signal
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
-from itertools import islice
-from multiprocessing import resource_tracker
+from dataclasses import replace
+from queue import Empty, Queue
 from typing import NamedTuple
+from uuid import uuid4
 
-import dask
-from distributed import Client, Future, LocalCluster, as_completed, get_worker
+from distributed import CancelledError, Future, get_worker
 from distributed.scheduler import KilledWorker
 
 from motionese.errors import MotioneseError, StorageError
 from motionese.experiment.run import Run, go_through
 from motionese.experiment.study import Study
+from motionese.experiment.workers import OpenedWorkers, Workers
 from motionese.imitation import Recordings
-from motionese.one_core import one_core_each
 
-LOOPS = "loops"
-"""The topic under which workers tell of their loops."""
+LOOK_EVERY_S = 1.0
+"""How often it is looked for further workers."""
+GONE = "the scheduler is gone; what was finished is kept, and the same command goes on"
 
 
 class UnfinishedRunsError(MotioneseError):
@@ -53,7 +51,7 @@ class Job(NamedTuple):
 
 def go_through_all(
     jobs: Sequence[Job],
-    workers: int,
+    opened: OpenedWorkers,
     *,
     loop_done: Callable[[Job, int], None],
     run_ended: Callable[[Job, str], None],
@@ -62,7 +60,7 @@ def go_through_all(
 
     Args:
         jobs: The runs, each of another name; those that are finished cost nothing.
-        workers: How many runs at once, each in a process of its own.
+        opened: The workers that do them; they are let go afterwards.
         loop_done: Called with a run and its last whole loop, also when it begins.
         run_ended: Called with a run and why it could not go on, or "".
 
@@ -72,25 +70,17 @@ def go_through_all(
     left = longest_first(jobs)
     if not left:
         return []
-    by_name, waiting = {job.name: job for job in left}, iter(left)
-    failures = []
-    with _client(min(workers, len(left))) as client:
-
-        def begin(count: int) -> list[Future]:
-            return [
-                client.submit(_go_through, job, key=job.name, pure=False)
-                for job in islice(waiting, count)
-            ]
-
-        client.subscribe_topic(LOOPS, lambda event: loop_done(by_name[event[1][0]], event[1][1]))
-        going = as_completed(begin(workers))
-        for future in going:
-            job, failure = by_name[future.key], _failure(future)
+    by_name, failures = {job.name: job for job in left}, []
+    with opened as workers:
+        runs = _Runs(workers, left)
+        workers.client.subscribe_topic(
+            runs.topic, lambda event: loop_done(by_name[event[1][0]], event[1][1])
+        )
+        for job, failure in runs:
             run_ended(job, failure)
             if failure:
                 failures.append(f"{job.name}: {failure}")
-            going.update(begin(1))
-    return failures
+    return [*failures, *([GONE] if runs.waiting else [])]
 
 
 def longest_first(jobs: Sequence[Job]) -> list[Job]:
@@ -107,11 +97,65 @@ def longest_first(jobs: Sequence[Job]) -> list[Job]:
     return sorted((job for job in jobs if not job.run.ended()), key=key)
 
 
-def _go_through(job: Job) -> str:
-    """Do a run in a worker; return why it cannot go on, or ""."""
+class _Runs:
+    """Runs that are given to workers, the first ones first, as many as these can do at a time."""
+
+    def __init__(self, workers: Workers, jobs: Sequence[Job]) -> None:
+        self.waiting, self.topic = deque(jobs), f"loops-{workers.client.id}"
+        self._workers = workers
+        self._given: dict[Future, tuple[Job, int]] = {}
+        self._ended: Queue[Future] = Queue()
+
+    def __iter__(self) -> Iterator[tuple[Job, str]]:
+        """Yield runs as they end, each with why it could not go on, or "".
+
+        Where the scheduler goes, those that are left are `waiting` again.
+        """
+        while self.waiting or self._given:
+            try:
+                self._give()
+                future = self._ended.get(timeout=LOOK_EVERY_S)
+            except Empty:
+                continue
+            except OSError:
+                break
+            if future.cancelled():
+                break
+            job, loops = self._given.pop(future)
+            if _killed(future) and job.run.loops_done() > loops:
+                self.waiting.appendleft(job)
+            else:
+                yield job, _failure(future)
+        self.waiting.extend(job for job, _ in self._given.values())
+
+    def _give(self) -> None:
+        """Give runs to workers that are free; `OSError` if the scheduler is gone."""
+        free = self._workers.many() - len(self._given)
+        for job in [self.waiting.popleft() for _ in range(min(free, len(self.waiting)))]:
+            key = f"{job.name} {uuid4()}"
+            there = replace(job.run, folder=job.run.folder.resolve())
+            future = self._workers.client.submit(
+                *(_go_through, job._replace(run=there), self.topic, key),
+                key=key,
+                pure=False,
+                resources=self._workers.each,
+            )
+            self._given[future] = job, job.run.loops_done()
+            future.add_done_callback(self._ended.put)
+
+
+def _go_through(job: Job, topic: str, key: str) -> str:
+    """Do a run in a worker; return why it cannot go on, or "".
+
+    Its loops are told under a topic; `key` is what the worker knows it by.
+    """
+    worker = get_worker()
 
     def loop_done(loop: int) -> None:
-        get_worker().log_event(LOOPS, (job.name, loop))
+        task = worker.state.tasks.get(key)
+        if task is None or task.state != "executing":
+            raise CancelledError  # nobody waits for it any more
+        worker.log_event(topic, (job.name, loop))
 
     loop_done(job.run.loops_done())
     try:
@@ -128,6 +172,11 @@ def _go_through(job: Job) -> str:
     return ""
 
 
+def _killed(future: Future) -> bool:
+    """Whether a run's process was killed again and again."""
+    return future.status == "error" and isinstance(future.exception(), KilledWorker)
+
+
 def _failure(future: Future) -> str:
     """Return why a run could not go on, or ""; anything unforeseen is raised."""
     try:
@@ -137,52 +186,3 @@ def _failure(future: Future) -> str:
             "its process was killed again and again, perhaps for want of memory; "
             "the same command goes on from its last whole loop"
         )
-
-
-@contextmanager
-def _client(workers: int) -> Iterator[Client]:
-    # Ctrl-C reaches the whole group of processes, but is for the first one alone: threads and
-    # processes made while it is blocked keep it blocked, workers that are restarted included.
-    # The resource tracker would unblock it if it were started by them.
-    resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        with (
-            one_core_each(),
-            dask.config.set({"logging.distributed": "critical"}),
-            _cluster(workers) as cluster,
-            Client(cluster) as client,
-        ):
-            try:
-                signal.pthread_sigmask(signal.SIG_SETMASK, before)
-                yield client
-            except BaseException:
-                _kill(cluster)
-                raise
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _cluster(workers: int) -> LocalCluster:
-    return LocalCluster(
-        n_workers=workers,
-        threads_per_worker=1,
-        processes=True,
-        memory_limit=0,
-        host="127.0.0.1",
-        dashboard_address="127.0.0.1:0",
-        worker_dashboard_address="127.0.0.1:0",
-        silence_logs=logging.CRITICAL,
-    )
-
-
-def _kill(cluster: LocalCluster) -> None:
-    """Kill the workers: asked to stop they would finish their loops first, and need not."""
-    for logger in ("asyncio", "tornado.application"):
-        # They would tell of every connection that is lost by this.
-        logging.getLogger(logger).setLevel(logging.CRITICAL)
-    for nanny in cluster.workers.values():
-        nanny.auto_restart = False
-        if nanny.pid:
-            with suppress(ProcessLookupError):
-                os.kill(nanny.pid, signal.SIGKILL)

@@ -7,7 +7,7 @@ the folder is free, and holds what was finished.
 import json
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,12 +20,15 @@ from motionese.experiment.digests import DIGESTS, changed, list_files, told
 from motionese.experiment.environment import environment
 from motionese.experiment.presets import differences
 from motionese.experiment.run import Run
+from motionese.experiment.shard import Shard
 from motionese.experiment.study import Study
 from motionese.files import write_whole
 
 FORMAT, VERSION = "motionese-run", 5
 SETTINGS, ENVIRONMENT = "settings.json", "environment.json"
-LOCK, HOLDER = ".lock", ".lock-holder"
+LOCK, HOLDER, SHARD_LOCK = ".lock", ".lock-holder", ".lock-shard-"
+SHARDS_WAIT_S = 60
+"""How long a shard waits for others that begin at the same time."""
 REPORT = "report.html"
 
 Facts = dict[str, Any]
@@ -79,8 +82,12 @@ def open_run_folder(
 
 
 @contextmanager
-def open_run_folders(openings: Sequence[Opening]) -> Iterator[list[RunFolder]]:
+def open_run_folders(
+    openings: Sequence[Opening], shard: Shard | None = None
+) -> Iterator[list[RunFolder]]:
     """Make several run folders, or go on with them; all are checked before one is written to.
+
+    With a shard, others of as many may be open in other processes.
 
     Raises:
         RunFolderError: One is in use, not ours, of other settings, or cannot be written to.
@@ -89,10 +96,16 @@ def open_run_folders(openings: Sequence[Opening]) -> Iterator[list[RunFolder]]:
         if each.path.exists():
             _check_ours(each.path)
             _check_same(each)
-    with ExitStack() as locks:
+    with ExitStack() as locks, ExitStack() as whole:
         for each in openings:
-            locks.enter_context(_alone(each.path))
-        yield [_begun(each) for each in openings]
+            whole.enter_context(_alone(each.path, wait_s=SHARDS_WAIT_S if shard else 0))
+            _check_shards(each.path, shard)
+        folders = [_begun(each, alone=shard is None) for each in openings]
+        if shard:
+            for each in openings:
+                locks.enter_context(_locked(each.path / _shard_lock(shard), each.path))
+            whole.close()
+        yield folders
 
 
 def check_around(path: Path, names: Sequence[str]) -> None:
@@ -118,17 +131,17 @@ def run_folders_in(path: Path) -> list[Path]:
     return sorted(settings.parent for settings in path.glob(f"*/{SETTINGS}"))
 
 
-def _begun(opening: Opening) -> RunFolder:
+def _begun(opening: Opening, *, alone: bool) -> RunFolder:
     """Write what stands beside the runs, or check that it is the same."""
     path, settings, preset, shown = opening
     try:
         # Another process may have written them since they were checked without the lock.
         _check_same(opening)
-        if (path / SETTINGS).exists():
+        if alone:
             # What a killed process had not finished writing.
             for part in path.rglob(".*.part"):
                 part.unlink()
-        else:
+        if not (path / SETTINGS).exists():
             now = settings.model_dump(mode="json")
             facts = {"format": FORMAT, "version": VERSION, "preset": preset, "settings": now}
             facts |= {"demonstrations": shown} if shown else {}
@@ -204,7 +217,7 @@ def _facts(file: Path) -> Facts:
 def _check_ours(path: Path) -> None:
     names = _names_in(path)
     # A process may have been killed before it wrote the settings.
-    foreign = [n for n in names if n not in (LOCK, HOLDER) and not n.endswith(".part")]
+    foreign = [n for n in names if not n.startswith(LOCK) and not n.endswith(".part")]
     if not {SETTINGS, DIGESTS} & set(names) and foreign:
         raise RunFolderError(
             f"{path} is not empty and no run folder (it has no {SETTINGS}); choose another"
@@ -221,15 +234,30 @@ def _names_in(path: Path) -> list[str]:
 
 
 @contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    lock, holder = FileLock(path / LOCK, blocking=False), path / HOLDER
+def _alone(path: Path, wait_s: float) -> Iterator[None]:
+    """Hold a folder's lock, and tell others whose it is."""
+    holder = path / HOLDER
+    with _locked(path / LOCK, path, wait_s):
+        try:
+            holder.write_text(str(os.getpid()))
+        except OSError as error:
+            raise RunFolderError(f"{path} cannot be written to: {error.strerror}") from error
+        try:
+            yield
+        finally:
+            holder.unlink(missing_ok=True)
+
+
+@contextmanager
+def _locked(file: Path, path: Path, wait_s: float = 0) -> Iterator[None]:
+    """Hold a lock of a folder, which is made if need be."""
+    lock = FileLock(file, timeout=wait_s)
     try:
         path.mkdir(parents=True, exist_ok=True)
         lock.acquire()
-        holder.write_text(str(os.getpid()))
     except Timeout as error:
         raise RunFolderError(
-            f"{path} is in use by another process{_process(holder)}; "
+            f"{path} is in use by another process{_process(path / HOLDER)}; "
             "wait until it has ended, or choose another --out"
         ) from error
     except OSError as error:
@@ -237,8 +265,27 @@ def _alone(path: Path) -> Iterator[None]:
     try:
         yield
     finally:
-        holder.unlink(missing_ok=True)
         lock.release()
+
+
+def _check_shards(path: Path, shard: Shard | None) -> None:
+    """Refuse a folder of which another process does the same runs as a shard, or all (None)."""
+    for file in path.glob(_shard_lock("*")):
+        number, count = map(int, file.name.removeprefix(SHARD_LOCK).split("-"))
+        if shard and shard.parts == count and shard.number != number:
+            continue
+        with suppress(Timeout), FileLock(file, blocking=False):
+            file.unlink()
+        if file.exists():
+            raise RunFolderError(
+                f"{path}: shard {number}/{count} is under way in another process, and would do "
+                f"some of the runs of {f'shard {shard}' if shard else 'this command'} too; wait "
+                "until it has ended, or use the same number of shards"
+            )
+
+
+def _shard_lock(shard: Shard | str) -> str:
+    return f"{SHARD_LOCK}{str(shard).replace('/', '-')}"
 
 
 def _process(holder: Path) -> str:

@@ -88,20 +88,24 @@ def preset_text(name: str) -> str:
     return resources.files(__name__).joinpath(f"{name}.toml").read_text("utf-8")
 
 
-def _preset(name: str) -> Table:
-    return tomllib.loads(preset_text(name))
-
-
-def _file(preset: str) -> Table:
-    path = Path(preset)
-    if not path.is_file():
-        raise SettingError(f"{unknown('preset', preset, PRESETS)}, or the path of a TOML file")
+def read_table(path: Path) -> Table:
+    """Return what a TOML file holds; `SettingError` where it cannot be read."""
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SettingError(f"{path}: not a TOML file: {error}") from error
     except OSError as error:
         raise SettingError(f"{path}: cannot be read: {error.strerror}") from error
+
+
+def _preset(name: str) -> Table:
+    return tomllib.loads(preset_text(name))
+
+
+def _file(preset: str) -> Table:
+    if not Path(preset).is_file():
+        raise SettingError(f"{unknown('preset', preset, PRESETS)}, or the path of a TOML file")
+    return read_table(Path(preset))
 
 
 def _over(table: Table, above: Table) -> Table:

@@ -66,17 +66,22 @@ class Display(_Display):
         super().__init__(console, *shown, *after, speed_estimate_period=WHOLE_HISTORY_S)
         done = {job.name: job.loops if job.run.ended() else job.run.loops_done() for job in jobs}
         self._done, self._left = done, sum(job.run.ended() is None for job in jobs)
-        self._rows: dict[str, TaskID] = {}
+        self._failed, self._rows = 0, dict[str, TaskID]()
         part, total = sum(done.values()), sum(job.loops for job in jobs)
         self._all = self._bars.add_task(
             "all runs", total=total, completed=part, told_from=100 * (0.9 * part / total + 0.1)
         )
+
+    def say(self, sentence: str) -> None:
+        """Write a sentence, above the bars where there are any."""
+        self._console.print(sentence)
 
     def loop_done(self, job: "Job", loop: int) -> None:
         """Show a run's last whole loop; its row appears with the first one that is told."""
         if job.name not in self._rows:
             row = self._bars.add_task(job.name, total=job.loops, told_from=math.inf)
             self._rows[job.name] = row
+            self._count()
         doing = job.name if loop < job.loops else f"{job.name}, evaluation"
         self._bars.update(self._rows[job.name], completed=loop, description=doing)
         self._advance(job, loop)
@@ -85,10 +90,19 @@ class Display(_Display):
     def run_ended(self, job: "Job", failure: str) -> None:
         """Take a run off the display."""
         self._left -= 1
+        self._failed += bool(failure)
         if job.name in self._rows:
-            self._bars.update(self._rows[job.name], visible=False)
+            self._bars.update(self._rows.pop(job.name), visible=False)
+        self._count()
         self._advance(job, job.loops)
         self._say([f"{job.name} {'cannot go on' if failure else 'ended'}", self._to_go()])
+
+    def _count(self) -> None:
+        """Show how many runs are done, under way, and could not go on."""
+        done = len(self._done) - self._left - self._failed
+        failed = f", {self._failed} failed" if self._failed else ""
+        told = f"{done} of {len(self._done)} runs done, {len(self._rows)} running{failed}"
+        self._bars.update(self._all, description=told)
 
     def _advance(self, job: "Job", loop: int) -> None:
         # A run whose process died begins again at its checkpoint, perhaps before what was told.

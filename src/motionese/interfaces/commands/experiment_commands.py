@@ -21,6 +21,24 @@ MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn"
 """What an extra brings."""
 
 
+Workers = Annotated[
+    int | None, Option(min=1, help="Runs at a time on this machine; default: one a core.")
+]
+Scheduler = Annotated[
+    str | None,
+    Option(
+        metavar="ADDRESS", help="Of a Dask scheduler whose workers do the runs: tcp://10.0.0.5:8786"
+    ),
+]
+SlurmFile = Annotated[
+    Path | None, Option(metavar="SETTINGS.toml", help="What Slurm is asked for, to do the runs.")
+]
+ShardText = Annotated[
+    str | None,
+    Option(metavar="I/N", help="Do the I-th of N parts of the runs only, as in a job array."),
+]
+
+
 def reproduce(
     conditions: Annotated[
         Texts,
@@ -53,9 +71,10 @@ def reproduce(
         Path | None,
         Option(help="The run folder, or that of several presets' run folders; else runs/PRESET."),
     ] = None,
-    workers: Annotated[
-        int | None, Option(min=1, help="Runs at a time; default: one a core.")
-    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    slurm: SlurmFile = None,
+    shard: ShardText = None,
     quick: Annotated[
         bool, Option("--quick", help="A short trial of everything; its figures mean nothing.")
     ] = False,
@@ -69,6 +88,7 @@ def reproduce(
         os.environ.setdefault("JAX_PLATFORMS", "cpu")
         _check_extra("reproduce")
         from motionese.interfaces.commands.reproduce import reproduce as perform
+        from motionese.interfaces.commands.where import read_where
 
         too_few = perform(
             console,
@@ -77,7 +97,7 @@ def reproduce(
             presets=preset or ["default"],
             overrides=[*(overrides or ()), *([f"body.vision={vision}"] if vision else ())],
             out=out,
-            workers=workers,
+            where=read_where(workers, scheduler, slurm, shard),
             quick=quick,
             caregiver=caregiver,
         )

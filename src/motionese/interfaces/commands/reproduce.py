@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from dask.system import CPU_COUNT
 from rich.console import Console
 
 from motionese.experiment.many_runs import Job, UnfinishedRunsError, go_through_all
@@ -12,6 +11,7 @@ from motionese.interfaces.commands.choices import as_ranges, read_seeds
 from motionese.interfaces.commands.display import Display
 from motionese.interfaces.commands.results import write_all_results, write_results
 from motionese.interfaces.commands.series import SCRIPTED, Series, read_series
+from motionese.interfaces.commands.where import Where
 
 
 def reproduce(
@@ -22,7 +22,7 @@ def reproduce(
     presets: Sequence[str],
     overrides: Iterable[str],
     out: Path | None,
-    workers: int | None,
+    where: Where,
     quick: bool,
     caregiver: str = SCRIPTED,
 ) -> str:
@@ -43,13 +43,15 @@ def reproduce(
     if len(series) > 1:
         check_around(root, [each.label for each in series])
     say = console.print
-    with open_run_folders([each.opening for each in series]) as folders:
+    with open_run_folders([each.opening for each in series], where.shard) as folders:
         jobs = {s.path: s.jobs(f, numbers) for s, f in zip(series, folders, strict=True)}
         every = [job for each in jobs.values() for job in each]
-        say(f"The report will be at {root / REPORT}")
         for each, folder in zip(series, folders, strict=True):
             _say_what(each, folder, numbers, console)
-        failures = _go_through(every, workers or CPU_COUNT, console)
+        if where.shard:
+            return _shard_done(every, where, root, console)
+        say(f"The report will be at {root / REPORT}")
+        failures = _go_through(every, where, console)
         begun = [path for path, own in jobs.items() if any(job.run.ended() for job in own)]
         if not begun:
             raise UnfinishedRunsError("; ".join(failures))
@@ -57,12 +59,30 @@ def reproduce(
             too_few = write_all_results(begun, root / REPORT, console)
         else:
             too_few = write_results(root, console)
-    diverged = [job.name for job in every if (job.run.ended() or {}).get("status") == "diverged"]
-    if diverged:
-        say(f"{len(diverged)} of {len(every)} runs diverged: {', '.join(diverged)}; see the report")
+    _say_diverged(every, console)
     if failures:
         raise UnfinishedRunsError("; ".join(failures))
     return too_few
+
+
+def _shard_done(every: Sequence[Job], where: Where, root: Path, console: Console) -> str:
+    """Do the runs of a shard; their report is written when all have ended."""
+    assert where.shard is not None
+    own = where.shard.part(every)
+    console.print(f"Shard {where.shard}: {len(own)} of {len(every)} runs")
+    failures = _go_through(own, where, console)
+    _say_diverged(own, console)
+    if failures:
+        raise UnfinishedRunsError("; ".join(failures))
+    console.print(f"When all shards have ended, `motionese report {root}` writes the report")
+    return ""
+
+
+def _say_diverged(jobs: Sequence[Job], console: Console) -> None:
+    diverged = [job.name for job in jobs if (job.run.ended() or {}).get("status") == "diverged"]
+    if diverged:
+        told = f"{len(diverged)} of {len(jobs)} runs diverged: {', '.join(diverged)}"
+        console.print(f"{told}; see the report")
 
 
 def _say_what(series: Series, folder: RunFolder, numbers: Sequence[int], console: Console) -> None:
@@ -78,19 +98,22 @@ def _say_what(series: Series, folder: RunFolder, numbers: Sequence[int], console
         say(f"{this} was begun with other versions ({change}): the bits may differ")
 
 
-def _go_through(jobs: Sequence[Job], workers: int, console: Console) -> list[str]:
+def _go_through(jobs: Sequence[Job], where: Where, console: Console) -> list[str]:
     left = [job for job in jobs if not job.run.ended()]
     begun = sum(job.run.loops_done() > 0 for job in left)
     if len(left) < len(jobs) or begun:
         console.print(f"{len(jobs) - len(left)} of them are done, {begun} go on from a checkpoint")
     if not left:
         return []
-    workers, loops = min(workers, len(left)), sorted({job.loops for job in left})
+    loops = sorted({job.loops for job in left})
     stops = "Ctrl-C stops, the same command goes on"
-    console.print(f"{_range(loops)} loops a run, {workers} at a time; {stops}")
+    console.print(f"{_range(loops)} loops a run, {where.told(len(left))}; {stops}")
     with Display(console, jobs) as display:
         return go_through_all(
-            left, workers, loop_done=display.loop_done, run_ended=display.run_ended
+            left,
+            where.workers(left, display.say),
+            loop_done=display.loop_done,
+            run_ended=display.run_ended,
         )
 
 
