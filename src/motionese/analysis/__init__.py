@@ -7,13 +7,23 @@ if TYPE_CHECKING:
     from motionese.analysis.comparison import write_comparison
     from motionese.analysis.kept import keep, kept_results, kept_runs
     from motionese.analysis.report import Report, write_report
+    from motionese.analysis.sweep import write_sweep
 
-__all__ = ["Report", "keep", "kept_results", "kept_runs", "write_comparison", "write_report"]
+__all__ = [
+    "Report",
+    "keep",
+    "kept_results",
+    "kept_runs",
+    "write_comparison",
+    "write_report",
+    "write_sweep",
+]
 
 _FILES = {
     "comparison": ("write_comparison",),
     "kept": ("keep", "kept_results", "kept_runs"),
     "report": ("Report", "write_report"),
+    "sweep": ("write_sweep",),
 }
 
 

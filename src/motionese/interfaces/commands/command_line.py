@@ -24,6 +24,7 @@ app = typer.Typer(
 PANELS: dict[str, dict[str, Callable[..., None]]] = {
     "The experiment": {
         "reproduce": experiment_commands.reproduce,
+        "sweep": experiment_commands.sweep,
         "report": experiment_commands.report,
         "presets": experiment_commands.presets,
         "teach": experiment_commands.teach,
@@ -41,7 +42,7 @@ PANELS: dict[str, dict[str, Callable[..., None]]] = {
 SEVERAL = (
     *("--preset", "--conditions", "--set", "--channels", "--exclude", "--unit", "--range"),
     *("--episodes", "--skip", "--columns", "--unwrap", "--quaternion", "--binary", "--topic"),
-    *("--observed", "--log", "--like", "--start", "--hand"),
+    *("--observed", "--log", "--like", "--start", "--hand", "--vary"),
 )
 """Options that may be followed by several values."""
 

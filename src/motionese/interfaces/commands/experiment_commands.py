@@ -1,4 +1,4 @@
-"""Commands for the experiment: reproduce, report, presets, teach."""
+"""Commands for the experiment: reproduce, sweep, report, presets, teach."""
 # ruff: noqa: PLC0415
 
 import os
@@ -21,6 +21,18 @@ MODULES = {"experiment": EXPERIMENT, "web": (*EXPERIMENT, "starlette", "uvicorn"
 """What an extra brings."""
 
 
+Conditions = Annotated[
+    Texts, Option(metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all.")
+]
+Seeds = Annotated[
+    str, Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
+]
+Overrides = Annotated[
+    Texts, Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40.")
+]
+Quick = Annotated[
+    bool, Option("--quick", help="A short trial of everything; its figures mean nothing.")
+]
 Workers = Annotated[
     int | None, Option(min=1, help="Runs at a time on this machine; default: one a core.")
 ]
@@ -40,13 +52,8 @@ ShardText = Annotated[
 
 
 def reproduce(
-    conditions: Annotated[
-        Texts,
-        Option(metavar="NAME …", help="Such as TD/MD, of the preset's factors; default: all."),
-    ] = None,
-    seeds: Annotated[
-        str, Option(help="How many (10 means seeds 0 to 9), or which: 100-109, or 1,5,9.")
-    ] = "3",
+    conditions: Conditions = None,
+    seeds: Seeds = "3",
     preset: Annotated[
         Texts,
         Option(
@@ -54,9 +61,7 @@ def reproduce(
             help="Settings, see `motionese presets`; several get one report. Default: default.",
         ),
     ] = None,
-    overrides: Annotated[
-        Texts, Option("--set", metavar="NAME=VALUE …", help="E.g. network.levels.cs.tau=40.")
-    ] = None,
+    overrides: Overrides = None,
     vision: Annotated[
         str | None, Option(metavar="projection|rendered", help="Where the robot sees hands from.")
     ] = None,
@@ -75,9 +80,7 @@ def reproduce(
     scheduler: Scheduler = None,
     slurm: SlurmFile = None,
     shard: ShardText = None,
-    quick: Annotated[
-        bool, Option("--quick", help="A short trial of everything; its figures mean nothing.")
-    ] = False,
+    quick: Quick = False,
 ) -> None:
     """Perform the experiment, or go on with it, and report.
 
@@ -100,6 +103,63 @@ def reproduce(
             where=read_where(workers, scheduler, slurm, shard),
             quick=quick,
             caregiver=caregiver,
+        )
+    _end(too_few, trial=quick)
+
+
+def sweep(
+    name: Annotated[
+        str | None,
+        Argument(help="A sweep that comes with motionese, or a TOML file; none lists them."),
+    ] = None,
+    vary: Annotated[
+        Texts,
+        Option(
+            metavar="NAME=N,N …",
+            help="Numbers of a setting, such as network.levels.cs.tau=30,70; several make a grid.",
+        ),
+    ] = None,
+    preset: Annotated[
+        str | None, Option(metavar="NAME|FILE", help="In the place of the sweep's own.")
+    ] = None,
+    conditions: Conditions = None,
+    seeds: Seeds = "3",
+    overrides: Overrides = None,
+    out: Annotated[
+        Path | None, Option(help="The folder of all points' run folders; else runs/sweep-NAME.")
+    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    slurm: SlurmFile = None,
+    shard: ShardText = None,
+    quick: Quick = False,
+) -> None:
+    """Perform a preset at several points of its settings: which findings hold where?
+
+    Stopped or killed at any time, the same command goes on, and ends with the same results.
+    """
+    with plainly("stopped; the same command goes on") as console:
+        os.environ.setdefault("JAX_PLATFORMS", "cpu")
+        _check_extra("sweep")
+        from motionese.experiment.sweeps import titles
+        from motionese.interfaces.commands.sweep import sweep as perform
+        from motionese.interfaces.commands.where import read_where
+
+        if name is None and not vary:
+            for each, title in titles():
+                typer.echo(f"{each}: {title}")
+            return
+        too_few = perform(
+            console,
+            name,
+            vary=vary or (),
+            preset=preset,
+            conditions=conditions or (),
+            seeds=seeds,
+            overrides=overrides or (),
+            out=out,
+            where=read_where(workers, scheduler, slurm, shard),
+            quick=quick,
         )
     _end(too_few, trial=quick)
 

@@ -1,16 +1,18 @@
 """Performing the experiment: check everything, go through all runs, report."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from rich.console import Console
 
 from motionese.experiment.many_runs import Job, UnfinishedRunsError, go_through_all
 from motionese.experiment.run_folder import REPORT, RunFolder, check_around, open_run_folders
+from motionese.files import write_whole
 from motionese.interfaces.commands.choices import as_ranges, read_seeds
 from motionese.interfaces.commands.display import Display
 from motionese.interfaces.commands.results import write_all_results, write_results
-from motionese.interfaces.commands.series import SCRIPTED, Series, read_series
+from motionese.interfaces.commands.series import SCRIPTED, Series, read_presets, read_series
 from motionese.interfaces.commands.where import Where
 
 
@@ -37,28 +39,56 @@ def reproduce(
         UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
     """
     numbers = read_seeds(seeds)
-    root, series = read_series(
-        presets, out, conditions=conditions, overrides=overrides, caregiver=caregiver, quick=quick
-    )
-    if len(series) > 1:
-        check_around(root, [each.label for each in series])
-    say = console.print
+    root, asked = read_presets(presets, list(overrides), out, quick=quick)
+    series = read_series(root, asked, conditions=conditions, quick=quick, caregiver=caregiver)
+
+    def written(folders: Sequence[Path]) -> str:
+        if len(series) > 1:
+            return write_all_results(folders, root / REPORT, console)
+        return write_results(root, console)
+
+    return perform(console, root, series, numbers, where, written)
+
+
+def perform(
+    console: Console,
+    root: Path,
+    series: Sequence[Series],
+    seeds: Sequence[int],
+    where: Where,
+    written: Callable[[Sequence[Path]], str],
+    *,
+    beside: Mapping[str, str] = MappingProxyType({}),
+) -> str:
+    """Go through all runs, or what is left of them, and report.
+
+    Args:
+        root: The folder of everything.
+        written: Writes the report of those run folders that have a run that ended, and returns why
+            there was too little for a statistical test.
+        beside: What is written into `root` before the runs, by the names of files.
+
+    Raises:
+        UnfinishedRunsError: Runs that could not go on; the others were finished and reported.
+    """
+    if root not in [each.path for each in series]:
+        check_around(root, [*beside, *(each.label for each in series)])
     with open_run_folders([each.opening for each in series], where.shard) as folders:
-        jobs = {s.path: s.jobs(f, numbers) for s, f in zip(series, folders, strict=True)}
+        for name, text in beside.items():
+            write_whole(root / name, text)
+        jobs = {s.path: s.jobs(f, seeds) for s, f in zip(series, folders, strict=True)}
         every = [job for each in jobs.values() for job in each]
+        if not where.shard:
+            console.print(f"The report will be at {root / REPORT}")
         for each, folder in zip(series, folders, strict=True):
-            _say_what(each, folder, numbers, console)
+            _say_what(each, folder, seeds, console)
         if where.shard:
             return _shard_done(every, where, root, console)
-        say(f"The report will be at {root / REPORT}")
         failures = _go_through(every, where, console)
-        begun = [path for path, own in jobs.items() if any(job.run.ended() for job in own)]
-        if not begun:
+        ended = [path for path, own in jobs.items() if any(job.run.ended() for job in own)]
+        if not ended:
             raise UnfinishedRunsError("; ".join(failures))
-        if len(series) > 1:
-            too_few = write_all_results(begun, root / REPORT, console)
-        else:
-            too_few = write_results(root, console)
+        too_few = written(ended)
     _say_diverged(every, console)
     if failures:
         raise UnfinishedRunsError("; ".join(failures))

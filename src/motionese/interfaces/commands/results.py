@@ -12,6 +12,7 @@ from motionese.errors import RunFolderError
 from motionese.experiment import Study
 from motionese.experiment.presets import study_of
 from motionese.experiment.run_folder import REPORT, SETTINGS, run_folders_in, run_settings
+from motionese.experiment.sweeps import sweep_in
 from motionese.task import Outcome
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ def write_all_results(folders: Sequence[Path], path: Path, console: Console) -> 
     Raises:
         RunFolderError: No run folder, none of its runs has ended, or it is no place for a report.
     """
-    from motionese.analysis import write_comparison
+    from motionese.analysis import write_comparison, write_sweep
 
     if path.is_dir() or (path.parent / SETTINGS).exists():
         what = "is a folder" if path.is_dir() else "would lie in a run folder, which has its own"
@@ -88,7 +89,10 @@ def write_all_results(folders: Sequence[Path], path: Path, console: Console) -> 
         if too_few := write_results(folder, console):
             reasons.append(f"{folder}: {too_few}")
     with console.status("Writing the report of all …"):
-        write_comparison(folders, path)
+        if swept := sweep_in(path.parent):
+            write_sweep(swept, folders, path)
+        else:
+            write_comparison(folders, path)
     console.print(f"Report of all: {path}")
     return "; ".join(reasons)
 

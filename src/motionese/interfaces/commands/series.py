@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from motionese.caregiver import Recorded, read_recorded
 from motionese.errors import MotioneseError, SettingError
@@ -18,7 +19,7 @@ SCRIPTED = "scripted"
 
 @dataclass(frozen=True)
 class Series:
-    """The runs of one preset.
+    """The runs of one preset, perhaps with other settings.
 
     Attributes:
         path: Their run folder.
@@ -49,21 +50,23 @@ class Series:
         ]
 
 
-def read_series(
-    presets: Sequence[str],
-    out: Path | None,
-    *,
-    conditions: Iterable[str],
-    overrides: Iterable[str],
-    caregiver: str,
-    quick: bool,
-) -> tuple[Path, list[Series]]:
-    """Return the folder of everything, and a series for each preset.
+class Asked(NamedTuple):
+    """A series as it is asked for: a preset with overrides, and what tells it from others."""
+
+    preset: str
+    overrides: Sequence[str]
+    label: str
+
+
+def read_presets(
+    presets: Sequence[str], overrides: Sequence[str], out: Path | None, *, quick: bool
+) -> tuple[Path, list[Asked]]:
+    """Return the folder of everything, and the series of each preset.
 
     One preset has this folder as its run folder; several have a run folder each in it.
 
     Raises:
-        MotioneseError: Something does not exist, or does not fit one of the presets.
+        SettingError: Several presets are called the same.
     """
     names = [Path(preset).stem for preset in presets]
     if doubled := sorted({name for name in names if names.count(name) > 1}):
@@ -72,27 +75,44 @@ def read_series(
             "which becomes that of its run folder"
         )
     root = out or Path("runs") / ("-".join(names) + ("-quick" if quick else ""))
-    chosen, single, series = list(conditions), list(overrides), []
-    for preset, name in zip(presets, names, strict=True):
-        label = name if len(names) > 1 else ""
-        with _naming(label):
-            settings = read_settings(preset, single, quick=quick)
+    labels = names if len(names) > 1 else [""]
+    return root, [Asked(p, overrides, of) for p, of in zip(presets, labels, strict=True)]
+
+
+def read_series(
+    root: Path,
+    asked: Sequence[Asked],
+    *,
+    conditions: Iterable[str],
+    quick: bool,
+    caregiver: str = SCRIPTED,
+    kind: str = "preset",
+) -> list[Series]:
+    """Return what is asked for, after all of it was checked; `kind` is what labels stand for.
+
+    Raises:
+        MotioneseError: Something does not exist, or does not fit one of the series.
+    """
+    chosen, series = list(conditions), []
+    for preset, overrides, label in asked:
+        with _naming(label and f"{kind} {label}"):
+            settings = read_settings(preset, overrides, quick=quick)
             scene = Scene(settings, seed=0)
             newborn(scene, len(settings.network.levels))
             these, shown = read_conditions(chosen, settings), _recorded(caregiver, scene)
         series.append(Series(preset, settings, these, root / label, label, shown))
-    return root, series
+    return series
 
 
 @contextmanager
-def _naming(label: str) -> Iterator[None]:
-    """Say of which of several presets it is that something does not fit."""
+def _naming(series: str) -> Iterator[None]:
+    """Say of which of several series it is that something does not fit."""
     try:
         yield
     except MotioneseError as error:
-        if not label:
+        if not series:
             raise
-        raise type(error)(f"preset {label}: {error}") from error
+        raise type(error)(f"{series}: {error}") from error
 
 
 def _recorded(caregiver: str, scene: Scene) -> Recorded | None:
