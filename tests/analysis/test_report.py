@@ -239,7 +239,9 @@ def test_no_run(tmp_path):
 
 
 @pytest.mark.slow
-def test_of_200_bytes_that_changed_anywhere_200_are_told(tmp_path, make_run, unrendered):
+def test_of_200_files_with_a_byte_changed_or_cut_off_anywhere_200_are_told(
+    tmp_path, make_run, unrendered
+):
     for seed in (0, 1):
         make_run(tmp_path, TD_MD, seed)
     write_report(tmp_path)
@@ -248,9 +250,9 @@ def test_of_200_bytes_that_changed_anywhere_200_are_told(tmp_path, make_run, unr
     rng, told = np.random.default_rng(0), 0
     for path in rng.choice(np.array(files), 200, p=sizes / sizes.sum()):
         whole = path.read_bytes()
-        content = bytearray(whole)
-        content[rng.integers(len(content))] ^= rng.integers(1, 256)
-        path.write_bytes(content)
+        content, place = bytearray(whole), rng.integers(len(whole))
+        content[place] ^= rng.integers(1, 256)
+        path.write_bytes(content if rng.random() < 0.75 else whole[:place])
         try:
             collect(tmp_path)
             told += path in changed(tmp_path)  # and written anew

@@ -131,6 +131,23 @@ def test_a_read_only_folder_is_refused(tmp_path, settings, monkeypatch):
     tmp_path.chmod(0o755)
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
+def test_what_an_ordinary_user_may_not_write_to_is_refused_and_left_alone(tmp_path, settings):
+    folder = tmp_path / "run"
+    opened(folder, settings)
+    for path in (tmp_path, *tmp_path.parents[:-2]):
+        path.chmod(0o755)
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    os.seteuid(65534)
+    try:
+        assert f"{folder} cannot be written to: Permission denied" in refused(folder, settings)
+        new = tmp_path / "new"
+        assert f"{new} cannot be written to: Permission denied" in refused(new, settings)
+    finally:
+        os.seteuid(0)
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+
+
 def test_a_full_or_read_only_file_system_is_refused(tmp_path, settings, monkeypatch):
     def write_whole(path, content):
         raise OSError(30, "Read-only file system", str(path))
