@@ -158,7 +158,7 @@ def main() -> None:
     if compiler is None:
         print("No C compiler (cc, gcc) is here, so there is nothing to compare with.")
         return
-    table = Table(title="One epoch [ms], medians")
+    table = Table(title="One epoch in ms, medians")
     columns = ("units, motions × steps", "motionese", "plain C", "products", "× C", "× products")
     for column in (*columns, "bar"):
         table.add_column(column, justify="right")
