@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         save,
         split,
         train,
+        train_ensemble,
     )
     from motionese.network import MTRNN, Level, grow
 
@@ -52,6 +53,7 @@ __all__ = [
     "save",
     "split",
     "train",
+    "train_ensemble",
 ]
 
 __version__ = "0.1.0"

@@ -1,6 +1,7 @@
 """Motions with masks, training, recognition of initial states, generation."""
 
 from motionese.learning.diagnosis import Diagnosis, diagnose
+from motionese.learning.ensemble import train_ensemble
 from motionese.learning.fit import Fit
 from motionese.learning.generation.chain import generate_sequence
 from motionese.learning.generation.generate import activity, generate, placed
@@ -44,5 +45,6 @@ __all__ = [
     "save",
     "split",
     "train",
+    "train_ensemble",
     "write_fit",
 ]

@@ -1,4 +1,4 @@
-"""Whole rollouts of a batch in one scan, with the adjoint derived by hand.
+"""Whole rollouts of a batch in one loop, with the adjoint derived by hand.
 
 With ε_i = 1/τ_i, y = sigmoid(u) and x the input vector, row t + 1 follows from row t by a step (see
 `step`) and noise:
@@ -10,7 +10,7 @@ With g_t = ∂E/∂u_t as handed in from outside and δ_t the total derivative, 
 
     p_t = Wᵀ (ε δ_{t+1}),     δ_t = g_t + (1 − ε) δ_{t+1} + y_t (1 − y_t) k_t p_t,
 
-k_t being 1 − m_t for IO and 1 for context. The backward scan carries δ alone; every other gradient
+k_t being 1 − m_t for IO and 1 for context. The backward loop carries δ alone; every other gradient
 is one contraction of the stacked δ afterwards, and one that nobody asks for is never computed:
 
     ∂E/∂W = Σ ε δ_{t+1} x_tᵀ     ∂E/∂b = Σ ε δ_{t+1}     ∂E/∂u_0 = δ_0     ∂E/∂n_t = δ_t
@@ -74,16 +74,28 @@ def _rollout(
     drive, gate = mixture(sensed, share, tau.size)
     constants = per_step(weights, bias, tau)
 
-    def step(u: Array, inputs: tuple[Array, Array, Array | None]) -> tuple[Array, Array]:
-        drive_t, gate_t, noise_t = inputs
-        following = advance(u, drive_t, gate_t, *constants)
-        if noise_t is not None:
-            following = following + noise_t
-        return following, following
+    def step(t: Array, potentials: Array) -> Array:
+        following = advance(_row(potentials, t), _row(drive, t), _row(gate, t), *constants)
+        if noise is not None:
+            following = following + _row(potentials, t + 1)
+        return _with_row(potentials, t + 1, following)
 
-    steps = (drive[:-1], gate[:-1], None if noise is None else noise[1:])
-    _, later = jax.lax.scan(step, initial, steps)
-    return jnp.concatenate([initial[None], later])
+    # Each row takes the place of its noise; a scan that stacks rows would copy every one.
+    rows = jnp.zeros((len(sensed), *initial.shape), initial.dtype) if noise is None else noise
+    potentials: Array = jax.lax.fori_loop(0, len(rows) - 1, step, rows.at[0].set(initial))
+    return potentials
+
+
+def _row(rows: Array, t: Array) -> Array:
+    row: Array = jax.lax.dynamic_index_in_dim(rows, t, keepdims=False, allow_negative_indices=False)
+    return row
+
+
+def _with_row(rows: Array, t: Array, row: Array) -> Array:
+    updated: Array = jax.lax.dynamic_update_index_in_dim(
+        rows, row, t, 0, allow_negative_indices=False
+    )
+    return updated
 
 
 def _forward(*inputs: Any) -> tuple[Array, Saved]:
@@ -99,13 +111,13 @@ def _backward(saved: Saved, outer: Array) -> Gradients:
     slope = gate * y * (1 - y)
     scaled = rate[:, None] * weights
 
-    def step(delta: Array, inputs: tuple[Array, Array]) -> tuple[Array, Array]:
-        outer_t, slope_t = inputs
-        earlier = outer_t + (1 - rate) * delta + slope_t * (delta @ scaled)
-        return earlier, earlier
+    def step(back: Array, deltas: Array) -> Array:
+        t = len(outer) - 2 - back
+        delta = _row(deltas, t + 1)
+        earlier = _row(deltas, t) + (1 - rate) * delta + _row(slope, t) * (delta @ scaled)
+        return _with_row(deltas, t, earlier)
 
-    _, earlier = jax.lax.scan(step, outer[-1], (outer[:-1], slope[:-1]), reverse=True)
-    deltas = jnp.concatenate([earlier, outer[-1:]])
+    deltas = jax.lax.fori_loop(0, len(outer) - 1, step, outer)  # each δ_t takes the place of g_t
     later = deltas[1:]
     error = rate * later
     x = (drive + gate * y)[:-1]

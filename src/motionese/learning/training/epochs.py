@@ -6,6 +6,7 @@ from typing import Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 import optax
 from jaxtyping import Array, Float
 
@@ -30,7 +31,7 @@ class Iterate(eqx.Module):
     @property
     def finite(self) -> bool:
         """Whether every parameter is a number."""
-        return all(bool(jnp.isfinite(leaf).all()) for leaf in jax.tree.leaves(self.free))
+        return all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(self.free))
 
 
 @eqx.filter_jit

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from math import isclose
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -74,14 +75,27 @@ class Trainer:
         }
         return {name: _digest(*values) for name, values in parts.items()}
 
+    @property
+    def problem(self) -> dict[str, Any]:
+        """What `run_epochs` takes beside the state and the number of epochs."""
+        named = ("start", "batch", "rule", "error", "bound", "noise", "shared", "key")
+        forced = jnp.asarray(self.settings.teacher_forcing, self.start.network.weights.dtype)
+        return {"teacher_forcing": forced} | {name: getattr(self, name) for name in named}
+
+    def chunk(self, state: TrainingState) -> int:
+        """Return how many epochs are run before the training is judged again."""
+        return min(CHUNK, self.settings.epochs - len(state.losses))
+
     def advanced(self, state: TrainingState) -> tuple[TrainingState, Status | None]:
         """Return the state a chunk of epochs later, and how training ended if it did."""
-        forced = jnp.asarray(self.settings.teacher_forcing, self.start.network.weights.dtype)
-        problem = (self.start, self.batch, self.rule, self.error, forced)
-        epochs = min(CHUNK, self.settings.epochs - len(state.losses))
-        following, chunk = run_epochs(
-            state.latest, *problem, self.bound, self.noise, self.shared, self.key, epochs
+        return self.judged(
+            state, *run_epochs(state.latest, **self.problem, length=self.chunk(state))
         )
+
+    def judged(
+        self, state: TrainingState, following: Iterate, chunk: Float[Array | ndarray, " E"]
+    ) -> tuple[TrainingState, Status | None]:
+        """Return the same, of what `run_epochs` made of the chunk."""
         losses = np.concatenate([state.losses, np.asarray(chunk)])
         wrong = np.flatnonzero(~np.isfinite(losses))
         if len(wrong) or not following.finite:
