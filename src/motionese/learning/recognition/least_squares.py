@@ -42,9 +42,10 @@ class _Progress(NamedTuple):
         loss: Their loss. [B]
         curvature: Jᵀ V J + p there. [B, K, K]
         slope: Jᵀ V r + p c there. [B, K]
-        damping: λ of the next step, as a share of the largest diagonal element. [B]
+        damping: λ of the step that is tried, as a share of the largest diagonal element. [B]
         moving: Which are not at rest yet. [B]
-        taken: Steps tried. [B]
+        taken: Steps tried so far; −1 before the starts themselves were looked at. [B]
+        tried: Where the next step leads, at first the starts. [B, K]
     """
 
     sought: Float[Array, "B K"]
@@ -54,6 +55,7 @@ class _Progress(NamedTuple):
     damping: Float[Array, " B"]
     moving: Bool[Array, " B"]
     taken: Int[Array, " B"]
+    tried: Float[Array, "B K"]
 
 
 @eqx.filter_jit
@@ -65,7 +67,7 @@ def damped_steps(search: Search, iterations: int) -> Found:
     """
     starts = search.free.shape[1]
     first = iterations if starts == 1 else min(iterations, BROAD)
-    broad = _taken(search, _at(search, search.begin), first)
+    broad = _taken(search, _begin(search), first)
     if first == iterations:
         return search.found(broad.sought, broad.loss, broad.taken)
     chosen = search.found(broad.sought, broad.loss, broad.taken).chosen
@@ -78,40 +80,47 @@ def damped_steps(search: Search, iterations: int) -> Found:
     )
 
 
-def _at(search: Search, sought: Float[Array, "B K"]) -> _Progress:
-    loss, curvature, slope = normal_equations(search, sought)
-    loss = jnp.where(jnp.isfinite(loss), loss, jnp.inf)
+def _begin(search: Search) -> _Progress:
+    begin = search.begin
+    count, sought = begin.shape
     return _Progress(
-        sought,
-        loss,
-        curvature,
-        slope,
-        jnp.full_like(loss, FIRST_DAMPING),
-        jnp.ones(len(loss), bool),
-        jnp.zeros(len(loss), int),
+        sought=begin,
+        loss=jnp.full(count, jnp.inf, begin.dtype),
+        curvature=jnp.zeros((count, sought, sought), begin.dtype),
+        slope=jnp.zeros_like(begin),
+        damping=jnp.full(count, FIRST_DAMPING, begin.dtype),
+        moving=jnp.ones(count, bool),
+        taken=jnp.full(count, -1),
+        tried=begin,
     )
 
 
 def _taken(search: Search, begin: _Progress, iterations: int) -> _Progress:
-    """Return where damped steps lead: until there are so many, or nothing moves any more."""
+    """Return where damped steps lead: until there are so many, or nothing moves any more.
+
+    The starts are looked at by the same code as what is tried later: it is large, and compiling it
+    twice would take twice as long.
+    """
 
     def step(now: _Progress) -> _Progress:
-        sought = _stepped(search, now)
-        loss, curvature, slope = normal_equations(search, sought)
-        tried = now.moving & search.short(now.loss)
+        loss, curvature, slope = normal_equations(search, now.tried)
+        first = now.taken < 0
+        tried = first | now.moving & search.short(now.loss)
         better = tried & (loss < now.loss)
-        damping = now.damping * jnp.where(better, EASED, RAISED)
+        damping = now.damping * jnp.where(first, 1.0, jnp.where(better, EASED, RAISED))
         gained = now.loss - loss >= search.still * now.loss
-        moving = tried & jnp.where(better, gained, damping <= LARGEST_DAMPING)
-        return _Progress(
-            jnp.where(better[:, None], sought, now.sought),
+        moving = first | tried & jnp.where(better, gained, damping <= LARGEST_DAMPING)
+        then = _Progress(
+            jnp.where(better[:, None], now.tried, now.sought),
             jnp.where(better, loss, now.loss),
             jnp.where(better[:, None, None], curvature, now.curvature),
             jnp.where(better[:, None], slope, now.slope),
             damping,
             moving,
             now.taken + tried,
+            now.tried,
         )
+        return then._replace(tried=_stepped(search, then))
 
     return jax.lax.while_loop(
         lambda now: (now.taken.max() < iterations) & search.unfinished(now.loss, now.moving),
