@@ -63,14 +63,14 @@ class ReachedError(Exception):
 
 
 def episodes(size: Size) -> Motions:
-    """Return the episodes: two waves a channel, as the motif has them, a little changed."""
+    """Return the episodes: a wave a channel, as the motif has them, a little changed."""
     rng, d = np.random.default_rng(0), size.channels
-    motifs = [(rng.uniform(0.4, 1.2, d), rng.uniform(0, 1, d)) for _ in range(size.motifs)]
+    motifs = [(rng.uniform(0.3, 1.0, d), rng.uniform(0, 1, d)) for _ in range(size.motifs)]
     t = np.linspace(0.0, 1.0, size.rows)[:, None]
     shown = []
     for _ in range(size.episodes):
         pace, phase = motifs[rng.integers(size.motifs)]
-        own = rng.normal(1.0, 0.1, d), phase + rng.normal(0.0, 0.02, d)
+        own = rng.normal(1.0, 0.05, d), phase + rng.normal(0.0, 0.01, d)
         shown.append(own[0] * np.sin(2 * np.pi * (t * pace + own[1])))
     noisy = [values + rng.normal(0.0, 0.005, values.shape) for values in shown]
     return Motions.from_arrays(noisy, [f"channel {i}" for i in range(d)], 20.0)

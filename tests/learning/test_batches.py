@@ -1,5 +1,7 @@
 """Training in batches of some motions: equal to steps by hand, each motion's memory its own."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import jax
@@ -220,3 +222,49 @@ def test_a_batch_that_cannot_be_is_refused_in_a_sentence(net, seven):
         train(net, seven, settings=Training(batch=3))
     with pytest.raises(SettingError, match="setting batch = -1: input should be greater"):
         Training(batch=-1)
+
+
+def test_motions_read_when_needed_are_learned_to_the_same_bits(net, seven, tmp_path, monkeypatch):
+    monkeypatch.setattr(feeding, "ROWS", 120)  # a call is of two updates, then of one
+    seven.write(tmp_path / "seven.npz")
+    stored, whole = (Motions.read(tmp_path / "seven.npz", stored=s) for s in (True, False))
+    settings = Training(epochs=3, batch=3, noise={"cf": 0.1})
+
+    fits = [train(net, motions, settings=settings, key=KEY) for motions in (stored, whole)]
+
+    for name in ("losses", "initial_states", "closed_loop_error"):
+        np.testing.assert_array_equal(getattr(fits[0], name), getattr(fits[1], name))
+    np.testing.assert_array_equal(fits[0].network.weights, fits[1].network.weights)
+    trainer = trainer_of(net, stored, settings)
+    assert trainer.feed.whole is None and trainer.feed.length == 1
+    other = trainer_of(net, stored.chosen([1, 0, 2, 3, 4, 5, 6]), settings)
+    assert trainer.origin["motions"] != other.origin["motions"]
+
+
+SPREAD = """
+import jax, numpy as np
+jax.config.update("jax_num_cpu_devices", 2)
+jax.config.update("jax_enable_x64", True)
+from motionese import MTRNN, Level, Motions, Training, train
+t = np.linspace(0, 6, 20)[:, None]
+motions = Motions.from_arrays([np.sin(t + [i, 2 * i]) for i in range(7)], ["x", "y"], 10.0)
+net = MTRNN.draw([Level(2, 2.0), Level(6, 5.0), Level(2, 30.0)], key=jax.random.key(0))
+for batch in (0, 3):
+    settings = Training(epochs=6, batch=batch, noise={"cf": 0.1})
+    one, two = (
+        train(net, motions, settings=settings, key=jax.random.key(1), devices=jax.devices()[:n])
+        for n in (1, 2)
+    )
+    for name in ("losses", "initial_states", "closed_loop_error"):
+        np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(two.network.weights, one.network.weights, atol=1e-9)
+    assert len(one.network.weights.devices()) == len(two.network.weights.devices()) == 1
+"""
+
+
+@pytest.mark.slow
+def test_spread_over_two_devices_a_training_is_the_same_but_for_rounding():
+    ran = subprocess.run(
+        [sys.executable, "-c", SPREAD], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stderr
