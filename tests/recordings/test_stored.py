@@ -6,6 +6,7 @@ from dataclasses import replace
 import h5py
 import numpy as np
 import pytest
+from pyarrow import parquet
 
 from motionese import Motions
 from motionese.errors import ChannelError, MotionError, MotioneseError, RecordingError
@@ -20,9 +21,9 @@ def many():
     return Motions.from_arrays(paths, ["a", "b", "c"], 10.0, units={"a": "rad"})
 
 
-@pytest.fixture(params=["npz", "hdf5"])
+@pytest.fixture(params=["npz", "hdf5", "lerobot"])
 def path(request, many, tmp_path):
-    many.write(tmp_path / f"many.{request.param}")
+    many.write(tmp_path / f"many.{request.param}", request.param)
     return tmp_path / f"many.{request.param}"
 
 
@@ -60,6 +61,20 @@ def test_one_episode_is_read_at_a_time(path):
 
     assert stored.read(7).name == stored.outline.episodes[7].name
     assert [e.name for e in stored.whole([3, 2]).episodes] == ["3", "2"]
+
+
+def test_an_episode_is_read_from_the_row_groups_that_hold_it(many, tmp_path):
+    many.write(tmp_path / "data", "lerobot")
+    (file,) = (tmp_path / "data").glob("data/*/*.parquet")
+    parquet.write_table(parquet.read_table(file), file, row_group_size=7)
+
+    stored = Motions.read(tmp_path / "data", stored=True)
+
+    same(stored, Motions.read(tmp_path / "data"))
+    table = parquet.read_table(file)
+    parquet.write_table(table.take(np.random.default_rng(0).permutation(len(table))), file)
+    with pytest.raises(RecordingError, match="the rows of an episode lie apart"):
+        Motions.read(tmp_path / "data", stored=True)
 
 
 def test_gaps_masks_and_short_episodes_are_as_in_a_whole_reading(many, tmp_path):
@@ -128,7 +143,7 @@ def test_a_channel_that_never_changes_is_refused(tmp_path):
 def test_formats_that_are_read_whole_say_so(many, tmp_path):
     many.write(tmp_path / "many.csv")
     with pytest.raises(
-        MotioneseError, match=r"only npz, hdf5, robomimic can be left .* this is csv"
+        MotioneseError, match=r"only npz, lerobot, hdf5, robomimic can be left .* this is csv"
     ):
         Motions.read(tmp_path / "many.csv", stored=True)
     np.savez(tmp_path / "bare.npz", observations=np.ones((5, 2)))

@@ -75,7 +75,7 @@ FORMATS = {
         chosen=True,
         stored=True,
     ),
-    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
+    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",), stored=True),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "hdf5": HDF5,
     "robomimic": HDF5,
