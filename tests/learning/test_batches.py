@@ -11,6 +11,7 @@ import pytest
 from motionese import MTRNN, Level, Motions, Training, train
 from motionese.errors import SettingError
 from motionese.learning.training import feed as feeding
+from motionese.learning.training import pieces
 from motionese.learning.training import trainer as training
 from motionese.learning.training.feed import Feed
 from motionese.learning.training.trainer import Trainer, make_trainer
@@ -203,16 +204,14 @@ def test_errors_told_in_pieces_are_those_of_one_batch(net, seven, monkeypatch):
     settings = Training(epochs=2, batch=3)
     whole = train(net, seven, settings=settings, key=KEY, validation=seven.chosen([0, 1, 2]))
     monkeypatch.setattr(training, "ROWS", 60)
-    monkeypatch.setattr(training, "RECOGNISED", 60)
+    monkeypatch.setattr(pieces, "RECOGNISED", 60)
     monkeypatch.setattr(training, "GLANCE", 2)
-    pieces = train(net, seven, settings=settings, key=KEY, validation=seven.chosen([0, 1, 2]))
+    some = train(net, seven, settings=settings, key=KEY, validation=seven.chosen([0, 1, 2]))
 
     assert [len(which) for which, _ in seven.batches(60)] == [2, 2, 2, 1]
     for name in ("initial_states", "closed_loop_error", "teacher_forced_error"):
-        np.testing.assert_allclose(
-            getattr(pieces, name), getattr(whole, name), rtol=1e-5, atol=1e-6
-        )
-    assert pieces.validation_error.shape == (3, 3)
+        np.testing.assert_allclose(getattr(some, name), getattr(whole, name), rtol=1e-5, atol=1e-6)
+    assert some.validation_error.shape == (3, 3)
 
 
 def test_a_batch_that_cannot_be_is_refused_in_a_sentence(net, seven):

@@ -70,8 +70,15 @@ def test_batches_threads_and_stored_motions_that_cannot_be_are_refused(arm):
     for options, sentence in {
         ("--batch", "6"): "batch must be at most the number of motions to learn, 5, got 6",
         ("--threads", "9"): "--threads 9: there are",
-        ("--stored", "--begin", "arm.safetensors"): "--stored: with --begin motions are read whole",
-        ("--stored", "--trim", "0.1"): "trim looks at all episodes together",
+        ("--stored",): "--stored reads one batch of motions after another; give --batch",
+        (
+            "--stored",
+            "--batch",
+            "2",
+            "--begin",
+            "arm.safetensors",
+        ): "--stored: with --begin motions are read whole",
+        ("--stored", "--batch", "2", "--trim", "0.1"): "trim looks at all episodes together",
     }.items():
         assert sentence in refused(*given, *options)
 

@@ -81,6 +81,10 @@ def train_model(
         stored: Whether motions stay in `source`, and are read when they are needed.
         reading: How `source` is read, as `Motions.read` takes it.
     """
+    if stored and not settings.batch:
+        raise SettingError(
+            "--stored reads one batch of motions after another; give --batch, as in 64"
+        )
     checkpoint = _checkpoint(out, resume)
     check_apart([source, *([begin] if begin else [])], out, checkpoint)
     drawn, noise = jax.random.split(jax.random.key(seed))

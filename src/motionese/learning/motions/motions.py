@@ -121,8 +121,8 @@ class Motions:
             format: One of `recordings.FORMATS`; found from what is there where left out.
             stored: Whether the motions are left where they are, and each is read when it is
                 needed: what does not fit into memory is trained on in batches. Of a
-                LeRobotDataset, robomimic's HDF5 and our own .npz; without what looks at all motions together: `trim`,
-                `unwrap`, `quaternions`, `leaps`, `binary`.
+                LeRobotDataset, robomimic's HDF5 and our own .npz; without what looks at all motions
+                together: `trim`, `unwrap`, `quaternions`, `leaps`, `binary`.
             given: Any of `recordings.OPTIONS`, which say what is what in a file: `episode`, `time`,
                 `columns` of tables, `topics`, `pause`, `marker` of logs; and any of
                 `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`, `trim`, `nan`,

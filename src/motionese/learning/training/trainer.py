@@ -19,21 +19,19 @@ from motionese.learning.error import ERRORS, Error
 from motionese.learning.fit import Fit
 from motionese.learning.motions.batch import Batch
 from motionese.learning.motions.motions import Motions
-from motionese.learning.objective import initial_potentials, with_shared_channels
+from motionese.learning.objective import with_shared_channels
 from motionese.learning.optimisers import training_rule
 from motionese.learning.parameters import Parameters, learned_by
-from motionese.learning.recognition.recognise import SAME_RATE, recognise_all
-from motionese.learning.recognition.result import RecognitionResult
+from motionese.learning.recognition.recognise import SAME_RATE
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.training.feed import ROWS, UPDATES, Feed
+from motionese.learning.training.pieces import judged, recognised
 from motionese.learning.training.shared_states import Groups, averaged, averaging
 from motionese.learning.training.training_state import TrainingState
 from motionese.learning.training.updates import Iterate, run_updates
 from motionese.network import MTRNN, network_of
 
-RECOGNISED = 2**14
-"""Rows of held-out motions that are recognised together at most."""
 GLANCE = 200
 """Motions, of those learned in batches, by which progress is told at most."""
 WARM = Recognition(iterations=8, starts=0)
@@ -144,8 +142,9 @@ class Trainer:
 
     def _validated(self, state: TrainingState) -> TrainingState:
         """Return the state with the held-out motions recognised anew."""
+        assert self.validation is not None, "asked of held-out motions"
         network, starts = self._now(state.latest).network, state.held_out[:, None]
-        found = self._recognised(network, starts, WARM)
+        found = recognised(network, self.validation, starts, WARM)
         loss = sum(each.loss for each in found)
         better = loss < state.validation_losses.min(initial=np.inf)
         return replace(
@@ -188,7 +187,7 @@ class Trainer:
         closed = share_of_range(errors[: len(self.motions)], channels)
         loss = error = None
         if self.validation:
-            _, errors = _errors(now.network, self.validation.batches(ROWS), state.held_out, (0.0,))
+            _, errors = judged(now.network, self.validation.batches(ROWS), state.held_out, (0.0,))
             loss, error = float(state.validation_losses[-1]), share_of_range(errors, channels)
         epochs = self.losses(state)
         return Progress(len(epochs), float(epochs[-1]), closed, loss, error)
@@ -206,14 +205,14 @@ class Trainer:
         early = self.validation is not None and self.settings.patience > 0
         end = self._now(state.best if early else state.latest)
         given = self._pieces(), np.asarray(end.initial_states), (1.0, 0.0)
-        states, forced, closed = _errors(end.network, *given)
+        states, forced, closed = judged(end.network, *given)
         fit = Fit(
             network=end.network,
             initial_states=states,
             names=self.motions.names,
             lengths=self.motions.lengths,
             rate_hz=self.motions.rate_hz,
-            losses=state.losses if status.failed else self.losses(state),
+            losses=self.losses(state),
             validation_losses=state.validation_losses,
             teacher_forced_error=forced,
             closed_loop_error=closed,
@@ -223,7 +222,7 @@ class Trainer:
         )
         if self.validation is None:
             return fit
-        found = self._recognised(fit, None, None)
+        found = recognised(fit, self.validation)
         return replace(fit, validation_error=np.stack([f.residual for f in found]))
 
     def _now(self, iterate: Iterate) -> Parameters:
@@ -235,38 +234,6 @@ class Trainer:
         if self.feed.whole is not None and self.feed.whole.sensed[..., 0].size <= ROWS:
             return [(range(len(self.motions)), self.feed.whole)]
         return self.motions.batches(ROWS)
-
-    def _recognised(
-        self,
-        model: MTRNN | Fit,
-        starts: Float[ndarray, "H 1 N"] | None,
-        settings: Recognition | None,
-    ) -> list[RecognitionResult]:
-        """Recognise the held-out motions, so many at once as are few rows."""
-        assert self.validation is not None, "asked of held-out motions"
-        found: list[RecognitionResult] = []
-        for which, rows in self.validation.pieces(RECOGNISED):
-            own = None if starts is None else starts[which]
-            part = self.validation.chosen(which)
-            found += recognise_all(model, part, starts=own, settings=settings, padded_to=rows)
-        return found
-
-
-def _errors(
-    network: MTRNN,
-    batches: Iterable[tuple[range, Batch]],
-    initial: Float[ndarray, "S N"],
-    shares: Sequence[float],
-) -> list[Float[ndarray, "M _"]]:
-    """Return motions' u_0, and their errors with each of some shares of teacher forcing."""
-    found = []
-    for which, batch in batches:
-        idle = len(batch.sensed) - len(which)
-        free = jnp.asarray(np.pad(initial[which], ((0, idle), (0, 0))), network.weights.dtype)
-        errors = (errors_of(network, batch, free, share) for share in shares)
-        parts = [np.asarray(initial_potentials(network, batch, free)), *errors]
-        found.append([part[: len(which)] for part in parts])
-    return [np.concatenate(part) for part in zip(*found, strict=True)]
 
 
 def make_trainer(
