@@ -197,7 +197,8 @@ class Trainer:
         """The motions, with empty ones, by which progress is told, and their numbers."""
         if self.feed.updates == 1 and self.feed.whole is not None:
             return np.arange(self.feed.count), self.feed.whole
-        few = np.linspace(0, len(self.motions) - 1, min(GLANCE, len(self.motions))).astype(int)
+        count = min(GLANCE, len(self.motions), max(ROWS // max(self.motions.lengths), 1))
+        few = np.linspace(0, len(self.motions) - 1, count).astype(int)
         return few, self.motions.chosen(few.tolist()).batch()
 
     def fit(self, state: TrainingState, status: Status) -> Fit:
