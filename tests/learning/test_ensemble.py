@@ -73,7 +73,7 @@ def keys(count):
 
 @pytest.fixture(autouse=True)
 def short_chunks(monkeypatch):
-    monkeypatch.setattr(trainer, "CHUNK", 10)
+    monkeypatch.setattr(trainer, "UPDATES", 10)
 
 
 def singly(networks, sets, each_key, **given):
@@ -114,7 +114,7 @@ def test_in_one_call_every_learner_comes_to_a_training_alone(
     monkeypatch.setattr(
         side_by_side,
         "_lanes",
-        lambda latest, *rest: lanes.append(len(latest.epoch)) or LANES(latest, *rest),
+        lambda latest, *rest: lanes.append(len(latest.updates)) or LANES(latest, *rest),
     )
     networks = [MTRNN.draw(LEVELS, key=jax.random.key(seed)) for seed in range(4)]
     sets = [motions, motions.chosen(["b", "a"]), motions.chosen("c"), motions.chosen("a")]

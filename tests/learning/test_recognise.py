@@ -17,7 +17,7 @@ from motionese.learning.optimisers import recognition_rule, training_rule
 from motionese.learning.parameters import Parameters
 from motionese.learning.recognition.descent import descend
 from motionese.learning.recognition.search import Search
-from motionese.learning.training.epochs import Iterate, run_epochs
+from motionese.learning.training.updates import Iterate, run_updates
 
 KEY = jax.random.key(2)
 QUICK = Recognition()
@@ -243,7 +243,7 @@ def test_recognition_does_not_pay_for_the_weights_gradient(fit, motions):
     trained, start = training_rule(Training(), learned), learner.free(learned)
     state, error = Iterate(start, trained.init(start), jnp.asarray(0)), ERRORS["squared"]
     training = operations(
-        run_epochs, state, learner, batch, trained, error, none, bound, None, {}, KEY, 10
+        run_updates, state, learner, batch, trained, error, none, bound, None, {}, KEY, 10
     )
     assert paid < starts * weights_gradient
     assert training > weights_gradient

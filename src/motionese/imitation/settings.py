@@ -110,8 +110,10 @@ class StagedTraining(Training):  # type: ignore[metaclass]
         shared: By level, which motions share its initial states; nobody where it is not named.
         grouping: How it is known which element of a repertoire a motion begins with; its first
             primitive is always known by name.
+        batch: 0: what is remembered is learned all at once. No setting of an experiment.
     """
 
+    batch: Literal[0] = Field(default=0, exclude=True)
     attention: Attention = Attention()
     shared: dict[str, Sharing] = Field(default_factory=dict)
     grouping: Grouping = "labels"

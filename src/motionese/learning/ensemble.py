@@ -4,9 +4,10 @@ On a CPU networks this small are fastest one by one: what `train` compiles is ca
 after the other, on every core at the same time. Each learner comes to the bits of a training alone.
 
 An accelerator is slow at one small network and fast at many, so there all learners go through the
-same epochs in one call (`jax.vmap`). The sums in its matrix products run in another order than
-those of a single network: losses agree to rounding at first (1e-5 of themselves in float32), and
-then drift apart as fast as the training amplifies rounding, as they do between two machines.
+same epochs in one call (`jax.vmap`); learners in batches go one after the other. The sums in its
+matrix products run in another order than those of a single network: losses agree to rounding at
+first (1e-8 of themselves in float64 over 30 epochs), and then drift apart as fast as the training
+amplifies rounding, as they do between two machines.
 """
 
 from collections.abc import Callable, Sequence
@@ -53,14 +54,15 @@ class Learner:
         return cls(trainer, state, trainer.ended(state), checkpoint)
 
     @property
-    def epochs(self) -> int:
-        """Epochs done."""
+    def updates(self) -> int:
+        """Updates done."""
         return len(self.state.losses)
 
     def keep(self) -> None:
         """Write the checkpoint, where there is to be one."""
         if self.checkpoint and not (self.status and self.status.failed):
-            self.state.write(self.checkpoint, self.trainer.origin)
+            epochs = self.trainer.epochs(self.state)
+            self.state.write(self.checkpoint, self.trainer.origin, epochs)
 
     def fit(self) -> Fit:
         """Return what training left, on the device that all began on."""
@@ -116,8 +118,8 @@ def train_ensemble(
         for network, own, key in zip(networks, sets, drawn, strict=True)
     ]
     _check_alike(trainers)
-    if isinstance(motions, Motions):
-        trainers = [replace(trainer, batch=trainers[0].batch) for trainer in trainers]
+    if isinstance(motions, Motions) and not common[1].batch:
+        trainers = [replace(trainer, feed=trainers[0].feed) for trainer in trainers]
     folder = None if checkpoints is None else Path(checkpoints)
     if folder:
         folder.mkdir(parents=True, exist_ok=True)
@@ -145,11 +147,12 @@ def _check_alike(trainers: Sequence[Trainer]) -> None:
 
 def _train(learners: Sequence[Learner], progress: Callable[[list[Progress]], None] | None) -> None:
     """Train chunk by chunk, until all have ended; those that are furthest behind go first."""
-    advanced = on_every_core if jax.default_backend() == "cpu" else in_one_call(len(learners))
+    one_by_one = jax.default_backend() == "cpu" or learners[0].trainer.settings.batch
+    advanced = on_every_core if one_by_one else in_one_call(len(learners))
     written = monotonic()
     while going := [learner for learner in learners if learner.status is None]:
-        behind = min(learner.epochs for learner in going)
-        turn = [learner for learner in going if learner.epochs == behind]
+        behind = min(learner.updates for learner in going)
+        turn = [learner for learner in going if learner.updates == behind]
         later = advanced([each.trainer for each in turn], [each.state for each in turn])
         for learner, (state, status) in zip(turn, later, strict=True):
             learner.state, learner.status = state, status

@@ -24,6 +24,8 @@ TURN = 2.0
 """How much a difference in the last step counts beside one in position, in a state."""
 BETWEEN = 3
 """Two forks of a motion are so many rows apart at least."""
+MOST_MOTIONS = 1_000
+"""Motions that are looked at, at most."""
 MOST, COMPARED = 8_000, 50
 """Rows of all ways, and neighbours of one, beyond which only some are looked at."""
 
@@ -41,9 +43,10 @@ def forks(motions: Motions) -> float:
     One fork a motion is what initial states are for. Many of them a network has to learn by heart,
     motion by motion: from what it has seen it cannot be told what follows.
 
-    Rows in which a channel was not observed are left out.
+    Rows in which a channel was not observed are left out; of very many motions `MOST_MOTIONS`,
+    evenly spread, are looked at.
     """
-    ways = _ways(motions)
+    ways = _ways(_some(motions))
     if not any(len(way) > 1 for way in ways):
         return 0.0
     states, futures, places = _windows(ways)
@@ -59,8 +62,10 @@ def row_noise(motions: Motions) -> float:
 
     A fourth difference takes away what is smooth; of independent noise it leaves 70 times the
     variance (the variate-difference method: Anderson 1971, chapter 3). No prediction of rows comes
-    nearer than that. NaN where no five rows in sequence were observed.
+    nearer than that. NaN where no five rows in sequence were observed. Of very many motions
+    `MOST_MOTIONS`, evenly spread, are looked at.
     """
+    motions = _some(motions)
     left = [
         np.diff(np.where(seen, values, np.nan) / motions.channels.spans, 4, axis=0)
         for values, seen in zip(motions.values, motions.observed, strict=True)
@@ -68,6 +73,11 @@ def row_noise(motions: Motions) -> float:
     known = np.concatenate(left)
     known = known[~np.isnan(known)]
     return float(np.sqrt((known**2).mean() / 70)) if len(known) else float("nan")
+
+
+def _some(motions: Motions) -> Motions:
+    few = np.linspace(0, len(motions) - 1, min(MOST_MOTIONS, len(motions))).astype(int)
+    return motions.chosen(few.tolist())
 
 
 def _size(differences: Float[ndarray, "*T D"]) -> Float[ndarray, "*T"]:

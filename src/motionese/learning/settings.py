@@ -34,7 +34,9 @@ class Training(BaseModel, metaclass=_InASentence):
     own, in `experiment/presets/`.
 
     Attributes:
-        epochs: Updates, each with the gradient of all motions.
+        epochs: How often every motion is learned from.
+        batch: Motions in one update at most; 0 for all. They are shuffled every epoch, and dealt
+            evenly to as few updates as need be. Many motions are learned in fewer epochs so.
         learned: What is learned, of what the network has; see `learning.parameters`. With "tau"
             the time constants as well, one factor a level.
         error: Squared (equation (3)), or Gaussian: the negative log likelihood with the variance
@@ -42,7 +44,7 @@ class Training(BaseModel, metaclass=_InASentence):
         optimiser: Plain gradient descent (the paper), with momentum, or Adam.
         weight_rate: α of equation (4), for the weights, the bias and what else the network has.
         initial_rate: β of equation (5), for every motion's own initial states.
-        schedule: Rates that stay, or that rise over the first 5 % of the epochs and then fall
+        schedule: Rates that stay, or that rise over the first 5 % of all updates and then fall
             along half a cosine to a hundredth.
         momentum: Of `optimiser = "momentum"`.
         clip: Largest joint norm of the gradient of all that is learned; 0 for none. With Adam it
@@ -63,6 +65,7 @@ class Training(BaseModel, metaclass=_InASentence):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     epochs: int = Field(default=3000, ge=1)
+    batch: int = Field(default=0, ge=0)
     learned: tuple[Learned, ...] = Field(
         default=("weights", "bias", "variance", "initial_states"), min_length=1
     )

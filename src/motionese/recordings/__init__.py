@@ -6,7 +6,9 @@ from motionese.recordings.examination import examined
 from motionese.recordings.finding import Finding, refuse_any
 from motionese.recordings.preparation import evened, finished, prepare, range_of
 from motionese.recordings.recording import Episode, Recording
-from motionese.recordings.registry import FORMATS, OPTIONS, read, write
+from motionese.recordings.registry import FORMATS, OPTIONS, read, read_stored, write
+from motionese.recordings.stored import StoredEpisode, StoredRecording
+from motionese.recordings.stored_preparation import prepare_stored
 from motionese.recordings.survey import ChannelNumbers, EpisodeNumbers, Survey, survey
 from motionese.recordings.units import factor, in_units
 
@@ -20,6 +22,8 @@ __all__ = [
     "EpisodeNumbers",
     "Finding",
     "Recording",
+    "StoredEpisode",
+    "StoredRecording",
     "Survey",
     "choose",
     "chosen",
@@ -29,8 +33,10 @@ __all__ = [
     "finished",
     "in_units",
     "prepare",
+    "prepare_stored",
     "range_of",
     "read",
+    "read_stored",
     "refuse_any",
     "survey",
     "with_binary",

@@ -11,6 +11,7 @@ from motionese.errors import RecordingError, SettingError, unknown
 from motionese.recordings.formats import csv, eipl, hdf5, lerobot, mcap, npy, npz, rosbag
 from motionese.recordings.nature import judged
 from motionese.recordings.recording import Recording
+from motionese.recordings.stored import StoredRecording
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ class Format:
         perhaps: Patterns of a file that a folder in this format holds if it is in no other.
         chosen: Whether its channels were chosen when it was written.
         written: Whether the module has a `write`.
+        stored: Whether it has a `stored(path) -> StoredRecording`, whose episodes are read one at a
+            time.
     """
 
     what: str
@@ -39,6 +42,7 @@ class Format:
     perhaps: tuple[str, ...] = ()
     chosen: bool = False
     written: bool = True
+    stored: bool = False
 
 
 OPTIONS = {
@@ -59,13 +63,19 @@ BAGS = (
 )
 OF_TABLES, OF_LOGS = ("episode", "time", "columns"), ("topics", "pause", "marker")
 HDF5 = Format(
-    f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE
+    *(f"HDF5 of {', '.join(hdf5.LAYOUTS)} or a folder of them", hdf5, hdf5.SUFFIXES, hdf5.INSIDE),
+    stored=True,
 )
 FORMATS = {
     "npz": Format(
-        "motionese's own .npz or another", npz, (".npz",), options=("columns",), chosen=True
+        "motionese's own .npz or another",
+        npz,
+        (".npz",),
+        options=("columns",),
+        chosen=True,
+        stored=True,
     ),
-    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",)),
+    "lerobot": Format("a LeRobotDataset folder", lerobot, inside=("meta/info.json",), stored=True),
     "eipl": Format("an EIPL folder (joints.npy)", eipl, inside=JOINTS),
     "hdf5": HDF5,
     "robomimic": HDF5,
@@ -94,14 +104,7 @@ def read(path: str | Path, format: str | None = None, **options: Any) -> Recordi
         RecordingError: Nothing there, or not what it is said to be.
         SettingError: A format or option that does not exist, or that the format does not take.
     """
-    path = Path(path)
-    try:
-        there = path.exists()
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
-    if not there:
-        raise RecordingError(f"{path}: there is no such file or folder")
-    name = _named(format) or _found(path)
+    path, name = _there(path, format)
     given = {option: told for option, told in options.items() if told is not None}
     for option in given:
         if option not in OPTIONS:
@@ -113,6 +116,24 @@ def read(path: str | Path, format: str | None = None, **options: Any) -> Recordi
             )
     recording = _checked(FORMATS[name].module.read(path, **given))
     return recording if FORMATS[name].chosen else judged(recording)
+
+
+def read_stored(path: str | Path, format: str | None = None) -> StoredRecording:
+    """Open a recording whose episodes are read one at a time; arguments as of `read`.
+
+    Raises:
+        RecordingError: Nothing there, not what it is said to be, or of a format that is read whole.
+        SettingError: A format that does not exist.
+    """
+    path, name = _there(path, format)
+    if not FORMATS[name].stored:
+        known = ", ".join(n for n, f in FORMATS.items() if f.stored)
+        raise RecordingError(
+            f"{path}: only {known} can be left where they are (--stored); this is {name}"
+        )
+    found: StoredRecording = FORMATS[name].module.stored(path)
+    _checked(found.outline)
+    return found
 
 
 def write(path: str | Path, recording: Recording, format: str | None = None) -> None:
@@ -137,6 +158,18 @@ def write(path: str | Path, recording: Recording, format: str | None = None) -> 
             f"--to is one of {', '.join(written)}"
         )
     FORMATS[name].module.write(path, _checked(recording))
+
+
+def _there(path: str | Path, format: str | None) -> tuple[Path, str]:
+    """Return a path at which something is, and the name of its format."""
+    path = Path(path)
+    try:
+        there = path.exists()
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
+    if not there:
+        raise RecordingError(f"{path}: there is no such file or folder")
+    return path, _named(format) or _found(path)
 
 
 def _named(format: str | None) -> str | None:

@@ -54,6 +54,35 @@ def test_a_model_that_would_not_move_is_called_so_and_training_it_stops_early(ar
     assert "On a robot these motions would not be recognisable" in told
 
 
+def test_motions_left_in_the_file_are_learned_in_batches(arm):
+    short = (*SHORT, "--batch", "2", "--epochs", "10")
+
+    whole, _ = trained_model(*short)
+    stored, told = trained_model(*short, "--stored")
+
+    assert "data.npz: 5 motions of 20 to 24 rows at 20 Hz, 4 channels" in told
+    np.testing.assert_array_equal(stored.losses, whole.losses)
+    np.testing.assert_array_equal(stored.network.weights, whole.network.weights)
+
+
+def test_batches_threads_and_stored_motions_that_cannot_be_are_refused(arm):
+    given = ("train", "data.npz", "--out", "new.safetensors", *SHORT)
+    for options, sentence in {
+        ("--batch", "6"): "batch must be at most the number of motions to learn, 5, got 6",
+        ("--threads", "9"): "--threads 9: there are",
+        ("--stored",): "--stored reads one batch of motions after another; give --batch",
+        (
+            "--stored",
+            "--batch",
+            "2",
+            "--begin",
+            "arm.safetensors",
+        ): "--stored: with --begin motions are read whole",
+        ("--stored", "--batch", "2", "--trim", "0.1"): "trim looks at all episodes together",
+    }.items():
+        assert sentence in refused(*given, *options)
+
+
 @pytest.mark.slow
 def test_errors_of_held_out_motions_are_told_and_logged(arm):
     fit, told = trained_model(*HELD_OUT, "--epochs", "100", "--log", "jsonl")

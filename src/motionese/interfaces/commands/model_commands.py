@@ -45,6 +45,19 @@ def train(
     epochs: Annotated[
         int | None, Option(min=1, help="In all, with those before --resume; default: 3000.")
     ] = None,
+    batch: Annotated[
+        int | None,
+        Option(
+            min=1, metavar="MOTIONS", help="Learned from in one update; default: all. For many."
+        ),
+    ] = None,
+    threads: Annotated[
+        int, Option(min=1, help="Cores, or GPUs, over which an update's motions are spread.")
+    ] = 1,
+    stored: Annotated[
+        bool,
+        Option("--stored", help="Leave motions in the file, to be read when needed. For large."),
+    ] = False,
     held_out: Annotated[
         str | None,
         Option(
@@ -77,6 +90,8 @@ def train(
     """Train a network on recordings; tell how good it is in closed loop."""
     with plainly(partial(_stopped, out)) as console:
         os.environ.update(one_core())
+        if threads > 1:
+            os.environ["JAX_NUM_CPU_DEVICES"] = str(threads)
         from motionese.interfaces.commands.train import read_training, train_model
 
         train_model(
@@ -89,8 +104,10 @@ def train(
             seed=seed,
             begin=begin,
             resume=resume,
-            settings=read_training(epochs, patience, overrides or ()),
+            settings=read_training(epochs, patience, overrides or (), batch),
+            threads=threads,
             logs=separated(log),
+            stored=stored,
             reading=as_read(**reading),
         )
 

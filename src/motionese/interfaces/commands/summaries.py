@@ -62,9 +62,16 @@ def reach(channels: Channels) -> tuple[Float[ndarray, " D"], Float[ndarray, " D"
 def share_beyond(motions: Motions) -> float:
     """Return the share of what was observed that is clipped, as the ranges are too narrow."""
     lowest, highest = reach(motions.channels)
-    values, seen = np.concatenate(motions.values), np.concatenate(motions.observed)
-    clipped = seen & ((values < lowest) | (values > highest))
-    return int(clipped.sum()) / max(int(seen.sum()), 1)
+    clipped, count = 0, 0
+    for values, seen in zip(motions.values, motions.observed, strict=True):
+        clipped += int((seen & ((values < lowest) | (values > highest))).sum())
+        count += int(seen.sum())
+    return clipped / max(count, 1)
+
+
+def _share_missing(motions: Motions) -> float:
+    missing = sum(int((~seen).sum()) for seen in motions.observed)
+    return missing / (sum(motions.lengths) * len(motions.channels))
 
 
 def description(motions: Motions) -> str:
@@ -73,7 +80,7 @@ def description(motions: Motions) -> str:
     rows = f"{shortest}" if shortest == longest else f"{shortest} to {longest}"
     count = f"{len(motions)} motion{'' if len(motions) == 1 else 's'}"
     width = len(motions.channels)
-    gaps, beyond = 1 - np.concatenate(motions.observed).mean(), share_beyond(motions)
+    gaps, beyond = _share_missing(motions), share_beyond(motions)
     return (
         f"{count} of {rows} rows at {motions.rate_hz:g} Hz, "
         f"{width} channel{'' if width == 1 else 's'}"

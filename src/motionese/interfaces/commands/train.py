@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import jax
+from jax import Device
 from jaxtyping import Array
 from rich.console import Console
 
@@ -40,6 +41,9 @@ LEVELS, IO_TAU = "40:5,8:70", 2.0
 """Context levels as SIZE:TAU, and the time constant of the IO level, where none are given."""
 BY_LEVEL = ("bound", "noise")
 """Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
+PAYS = 5_000
+"""Rows of an update for every thread from which on several are faster than one; see
+`benchmarks/large_recordings.py`."""
 MOST_UNITS = 5000
 """Every pair of units has a weight: beyond it, no memory holds what is trained."""
 
@@ -56,7 +60,9 @@ def train_model(
     begin: Path | None,
     resume: bool,
     settings: Training,
+    threads: int,
     logs: Sequence[str],
+    stored: bool,
     reading: Mapping[str, Any],
 ) -> Fit:
     """Train a network on recordings, save it, and tell how good it is.
@@ -70,14 +76,20 @@ def train_model(
         seed: Of the initial weights, the held-out motions and the state noise.
         begin: A model whose network, ranges and initial states it begins from; None to draw one.
         resume: Whether it goes on, from where it was stopped or has ended.
+        threads: Devices of JAX that share an update.
         logs: Kinds of logs, see `open_logs`.
+        stored: Whether motions stay in `source`, and are read when they are needed.
         reading: How `source` is read, as `Motions.read` takes it.
     """
+    if stored and not settings.batch:
+        raise SettingError(
+            "--stored reads one batch of motions after another; give --batch, as in 64"
+        )
     checkpoint = _checkpoint(out, resume)
     check_apart([source, *([begin] if begin else [])], out, checkpoint)
     drawn, noise = jax.random.split(jax.random.key(seed))
     context = None if levels is None else read_levels(levels)
-    network, motions = _begun(begin, source, context, io_tau, reading, drawn)
+    network, motions = _begun(begin, source, context, io_tau, stored, reading, drawn)
     learned, unseen = split(motions, read_held_out(held_out, motions), seed=seed)
     origin = origin_of(network, learned, settings, unseen, noise)
     start = Start(network, settings, noise)
@@ -87,6 +99,7 @@ def train_model(
     tell_findings(console, motions.examined)
     told = "as the file says" if held_out is None and motions.set_apart else ""
     console.print(_told(start, begin, learned, unseen, told))
+    devices = _devices(console, threads, settings, learned)
     display = TrainingDisplay(console, settings.epochs, start.done)
     earlier = start.done - start.stopped
     with open_logs(logs, out, start.done) as log, display:
@@ -105,6 +118,7 @@ def train_model(
             key=start.key,
             progress=progress,
             checkpoint=checkpoint,
+            devices=devices,
         )
     fit = trained if start.earlier is None else trained.after(start.earlier)
     write_fit(out, fit, {}, {ORIGIN: origin})
@@ -122,16 +136,21 @@ def _begun(
     source: Path,
     context: Sequence[Level] | None,
     io_tau: float | None,
+    stored: bool,
     reading: Mapping[str, Any],
     key: Array,
 ) -> tuple[MTRNN | Fit, Motions]:
     """Return a network that is drawn, or a model to begin from, and the motions that it learns."""
     if begin is not None:
+        if stored:
+            raise SettingError(
+                "--stored: with --begin motions are read whole; leave one of them out"
+            )
         fit, motions = read_begun(begin, source, reading)
         check_levels(begin, fit.network, io_tau, context)
         return fit, motions
     context = read_levels(LEVELS) if context is None else context
-    motions = Motions.read(source, **reading)
+    motions = Motions.read(source, stored=stored, **reading)
     io = Level(len(motions.channels), IO_TAU if io_tau is None else io_tau)
     return MTRNN.draw([io, *context], key=key), motions
 
@@ -174,13 +193,33 @@ def read_levels(levels: str | Sequence[tuple[int, float]]) -> list[Level]:
     return [Level(size, tau) for size, tau in pairs]
 
 
-def read_training(epochs: int | None, patience: int | None, overrides: Sequence[str]) -> Training:
+def _devices(
+    console: Console, threads: int, settings: Training, motions: Motions
+) -> list[Device] | None:
+    """Return the devices that share an update, several alone; tell where they would not pay."""
+    if threads == 1:
+        return None
+    devices = jax.devices()
+    if threads > len(devices):
+        raise SettingError(f"--threads {threads}: there are {len(devices)} {devices[0].platform}s")
+    rows = (settings.batch or len(motions)) * max(motions.lengths)
+    if rows < PAYS * threads:
+        console.print(
+            f"An update is of {rows} rows: {threads} threads pay from about {PAYS * threads} on, "
+            "one would be faster"
+        )
+    return devices[:threads]
+
+
+def read_training(
+    epochs: int | None, patience: int | None, overrides: Sequence[str], batch: int | None = None
+) -> Training:
     """Return the settings of training of texts such as 'weight_rate=0.02'.
 
     Raises:
         SettingError: A setting that does not exist, or a value that is not allowed.
     """
-    own = {"epochs": epochs, "patience": patience}
+    own = {"epochs": epochs, "patience": patience, "batch": batch}
     given: dict[str, Any] = {name: value for name, value in own.items() if value is not None}
     for text in overrides:
         name, _, told = text.partition("=")

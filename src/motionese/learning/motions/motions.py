@@ -20,7 +20,17 @@ from motionese.channels import Channels
 from motionese.errors import ChannelError, MotionError, RecordingError, unknown
 from motionese.learning.motions.arrays import channels_of, checked, checked_weights
 from motionese.learning.motions.batch import Batch
-from motionese.recordings import OPTIONS, Episode, Finding, Recording, choose, prepare
+from motionese.learning.motions.stored import StoredArrays
+from motionese.recordings import (
+    OPTIONS,
+    Episode,
+    Finding,
+    Recording,
+    choose,
+    prepare,
+    prepare_stored,
+    read_stored,
+)
 from motionese.recordings import read as read_recording
 from motionese.recordings import write as write_recording
 
@@ -30,7 +40,8 @@ class Motions:
     """Sequences over the same channels at the same rate.
 
     Attributes:
-        values: One array [T_i, D] per motion, in the channels' units.
+        values: One array [T_i, D] per motion, in the channels' units; of `StoredArrays` each is
+            read when it is asked for, and kept nowhere.
         observed: One array [T_i, D] per motion: what was observed.
         channels: Names, units and ranges of the D columns.
         rate_hz: Rows per second [Hz].
@@ -41,8 +52,8 @@ class Motions:
         held_out: Names of the motions that the recording sets apart for testing.
     """
 
-    values: tuple[Float[ndarray, "_ D"], ...]
-    observed: tuple[Bool[ndarray, "_ D"], ...]
+    values: tuple[Float[ndarray, "_ D"], ...] | StoredArrays
+    observed: tuple[Bool[ndarray, "_ D"], ...] | StoredArrays
     channels: Channels
     rate_hz: float
     names: tuple[str, ...]
@@ -100,12 +111,18 @@ class Motions:
 
     @classmethod
     @refusing(RecordingError)
-    def read(cls, path: str | Path, *, format: str | None = None, **given: Any) -> "Motions":
+    def read(
+        cls, path: str | Path, *, format: str | None = None, stored: bool = False, **given: Any
+    ) -> "Motions":
         """Read recordings: csv, .npz, LeRobot, EIPL, hdf5, ROS bags, mcap; a file or a folder.
 
         Args:
             path: The file or folder.
             format: One of `recordings.FORMATS`; found from what is there where left out.
+            stored: Whether the motions are left where they are, and each is read when it is
+                needed: what does not fit into memory is trained on in batches. Of a
+                LeRobotDataset, robomimic's HDF5 and our own .npz; without what looks at all motions
+                together: `trim`, `unwrap`, `quaternions`, `leaps`, `binary`.
             given: Any of `recordings.OPTIONS`, which say what is what in a file: `episode`, `time`,
                 `columns` of tables, `topics`, `pause`, `marker` of logs; and any of
                 `recordings.Choice`: `channels`, `exclude`, `rate_hz`, `resample_hz`, `trim`, `nan`,
@@ -120,6 +137,15 @@ class Motions:
         """
         told = {name: given.pop(name) for name in OPTIONS if name in given}
         chosen = choose(**given)
+        if stored:
+            for option in (name for name, value in told.items() if value is not None):
+                raise RecordingError(f"{path}: {option} is not for recordings left where they are")
+            ready, episodes = prepare_stored(read_stored(path, format), chosen)
+            return replace(
+                cls.from_recording(ready),
+                values=StoredArrays(episodes, "values"),
+                observed=StoredArrays(episodes, "observed"),
+            )
         return cls.from_recording(prepare(read_recording(path, format, **told), chosen))
 
     @classmethod
@@ -169,7 +195,22 @@ class Motions:
     @property
     def lengths(self) -> tuple[int, ...]:
         """Rows of every motion."""
+        if isinstance(self.values, StoredArrays):
+            return tuple(motion.rows for motion in self.values.motions)
         return tuple(len(v) for v in self.values)
+
+    @property
+    def stored(self) -> bool:
+        """Whether the motions are read when they are needed."""
+        return isinstance(self.values, StoredArrays)
+
+    @property
+    def contents(self) -> tuple[object, ...]:
+        """What tells these motions from others: digests of stored ones, the batch of others."""
+        if isinstance(self.values, StoredArrays):
+            scale = str([(c.low, c.high) for c in self.channels])
+            return (scale, *(motion.digest for motion in self.values.motions))
+        return self.batch()
 
     @property
     def set_apart(self) -> tuple[str, ...]:
@@ -188,8 +229,8 @@ class Motions:
             raise MotionError("no motions chosen; at least one is needed")
         return replace(
             self,
-            values=tuple(self.values[i] for i in rows),
-            observed=tuple(self.observed[i] for i in rows),
+            values=_picked(self.values, rows),
+            observed=_picked(self.observed, rows),
             names=tuple(self.names[i] for i in rows),
             weights=self.weights and tuple(self.weights[i] for i in rows),
         )
@@ -223,16 +264,28 @@ class Motions:
                 f"{len(self)} motions of up to {max(self.lengths)} rows "
                 f"do not fit into {count} of {rows} rows"
             )
-        sensed = np.full((count, rows, len(self.channels)), 0.5)
-        observed, weight = np.zeros(sensed.shape), np.zeros(sensed.shape)
+        kind = np.dtype(jnp.result_type(float))
+        sensed = np.full((count, rows, len(self.channels)), 0.5, kind)
+        observed, weight = np.zeros(sensed.shape, kind), np.zeros(sensed.shape, kind)
         motions = zip(self.values, self.observed, self.weights or self.observed, strict=True)
         for i, (value, mask, counts) in enumerate(motions):
             unit = self.channels.to_unit(np.where(mask, value, 0.0))
             sensed[i, : len(value)] = np.where(mask, unit, 0.5)
             observed[i, : len(value)] = mask
             weight[i, : len(value)] = mask * counts
-        kind = jnp.result_type(float)
-        return Batch(*(jnp.asarray(part, kind) for part in (sensed, observed, weight)))
+        return Batch(*map(jnp.asarray, (sensed, observed, weight)))
+
+    def pieces(self, rows: int) -> Iterator[tuple[range, tuple[int, int]]]:
+        """Yield which motions make up so many rows at most, and what their batch is padded to."""
+        longest = max(self.lengths)
+        size = min(max(rows // longest, 1), len(self))
+        for first in range(0, len(self), size):
+            yield range(first, min(first + size, len(self))), (size, longest)
+
+    def batches(self, rows: int) -> Iterator[tuple[range, Batch]]:
+        """Yield the pieces of so many rows at most as batches, all of one shape."""
+        for which, (size, longest) in self.pieces(rows):
+            yield which, self.chosen(which).batch(longest, size)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -252,3 +305,11 @@ class Motions:
         if not 0 <= which < len(self):
             raise MotionError(f"unknown motion {which}; there are {len(self)}, counted from 0")
         return int(which)
+
+
+def _picked(
+    arrays: tuple[ndarray, ...] | StoredArrays, rows: Sequence[int]
+) -> tuple[ndarray, ...] | StoredArrays:
+    if isinstance(arrays, StoredArrays):
+        return arrays.chosen(rows)
+    return tuple(arrays[i] for i in rows)

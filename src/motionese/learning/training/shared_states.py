@@ -4,13 +4,16 @@ Motions of a group have one initial state of a level, which moves by the mean of
 The sum would be the gradient of one tied parameter; the mean moves it as far as a motion's own
 initial state would move, however many experiences of a motion are remembered. With every update
 rule of ours this is also the mean of the motions' own updates, had they begun where they do.
+
+In batches of some motions it is the mean over those members of a group that are in the batch; the
+others move along, so that a group has one state at any time.
 """
 
 from collections.abc import Hashable, Mapping, Sequence
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from motionese.errors import SettingError, unknown
 from motionese.network import MTRNN
@@ -47,6 +50,12 @@ def averaging(
         shares = same / same.sum(axis=1, keepdims=True)
         matrices[level] = jnp.asarray(shares, network.weights.dtype)
     return matrices
+
+
+def shared_among(shares: Float[Array, "C C"], motions: Int[Array, " M"]) -> Float[Array, "M M"]:
+    """Return the matrix that averages over those of each motion's group that are among these."""
+    among = shares[motions][:, motions]
+    return among / among.sum(axis=1, keepdims=True)
 
 
 def averaged(

@@ -1,4 +1,4 @@
-"""Chunks of epochs of many trainings: on every core of a CPU, or in one call of an accelerator."""
+"""Updates of many trainings: on every core of a CPU, or in one call of an accelerator."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -12,13 +12,13 @@ import numpy as np
 from jaxtyping import Array
 
 from motionese.learning.status import Status
-from motionese.learning.training.epochs import Iterate, run_epochs
 from motionese.learning.training.trainer import Trainer
 from motionese.learning.training.training_state import TrainingState
+from motionese.learning.training.updates import Iterate, run_updates
 
 Judged = tuple[TrainingState, Status | None]
 Advance = Callable[[Sequence[Trainer], Sequence[TrainingState]], list[Judged]]
-"""What `Trainer.advanced` does, of several trainings that have had as many epochs."""
+"""What `Trainer.advanced` does, of several trainings that have had as many updates."""
 
 
 def on_every_core(trainers: Sequence[Trainer], states: Sequence[TrainingState]) -> list[Judged]:
@@ -40,6 +40,8 @@ def on_every_core(trainers: Sequence[Trainer], states: Sequence[TrainingState]) 
 def in_one_call(most: int) -> Advance:
     """Return what advances up to so many trainings in one call, each as a lane of a map.
 
+    They learn from all of their motions at once, not in batches.
+
     Fewer are filled up with copies to a half, a quarter, … of the most, so that few numbers of
     lanes are ever compiled.
     """
@@ -51,9 +53,10 @@ def in_one_call(most: int) -> Advance:
         members = tuple(id(trainers[i]) for i in which)
         if members not in stacked:
             stacked.clear()
-            stacked[members] = _stacked([trainers[i].problem for i in which])
+            stacked[members] = _stacked([trainers[i].problem(states[i]) for i in which])
         latest = jax.tree.map(lambda *each: np.stack(each), *(states[i].latest for i in which))
-        later = _lanes(latest, stacked[members], trainers[0].chunk(states[0]))
+        length = trainers[0].problem(states[0])["length"]
+        later = _lanes(latest, stacked[members], length)
         following, losses = jax.device_get(later)
         return [
             trainer.judged(state, jax.tree.map(lambda of, i=i: of[i], following), losses[i])
@@ -90,6 +93,6 @@ def _lanes(latest: Iterate, stacked: tuple[Any, Any, Any], length: int) -> tuple
     problems, axes, others = stacked
 
     def lane(latest: Iterate, problem: Any) -> tuple[Iterate, Array]:
-        return run_epochs(latest, **eqx.combine(problem, others), length=length)
+        return run_updates(latest, **{**eqx.combine(problem, others), "length": length})
 
     return jax.vmap(lane, in_axes=(0, axes))(latest, problems)

@@ -1,9 +1,10 @@
 """Training: equations (4) and (5), the weights by α and every motion's initial states by β."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import monotonic
 
+from jax import Device
 from jaxtyping import Array, Float
 from numpy import ndarray
 
@@ -34,6 +35,7 @@ def train(
     padded_to: tuple[int, int] | None = None,
     progress: Callable[[Progress], None] | None = None,
     checkpoint: str | Path | None = None,
+    devices: Sequence[Device] | None = None,
 ) -> Fit:
     """Train a network on motions: equations (3)–(5), of whatever `settings.learned` names.
 
@@ -52,18 +54,21 @@ def train(
         shared: By level, which group every motion belongs to: the motions of a group share their
             initial states of that level. Those of a level that is not named are every motion's own.
         validation: Motions held out.
-        key: JAX random key of the state noise; needed where there is any.
+        key: JAX random key of the state noise, and of the order of motions where an update is of
+            some of them; needed where there is either.
         padded_to: Motions and rows to pad the batch to, so that different batches share compiled
             code.
-        progress: Called between chunks of epochs.
+        progress: Called between chunks of epochs: of a hundred updates, or of one epoch.
         checkpoint: Where training is kept every few seconds; if the file is there, training goes
             on from it, to the same bits as without a break. At the end it is left, and gives the
             same fit at once: whoever has saved the fit removes it.
+        devices: Over which the motions of an update are spread, such as `jax.devices()`; JAX's
+            usual one where left out. Sums of several are rounded otherwise than those of one.
 
     Raises:
         SettingError: Channels, a rate or initial states do not fit, an unknown level in bounds,
-            noise or shared states, noise without a key, no epochs, or an error that the network has
-            no variance for.
+            noise or shared states, noise or batches without a key, no epochs, a batch of more
+            motions than there are, or an error that the network has no variance for.
         StorageError: The checkpoint belongs to another training, or cannot be read.
     """
     trainer = make_trainer(
@@ -76,23 +81,25 @@ def train(
         validation,
         key,
         padded_to,
+        devices,
     )
     state = trainer.beginning
     checkpoint = None if checkpoint is None else Path(checkpoint)
+    origin = trainer.origin if checkpoint else {}
     if checkpoint and checkpoint.exists():
-        state = state.resumed(checkpoint, trainer.origin)
+        state = state.resumed(checkpoint, origin)
     status, written = trainer.ended(state), monotonic()
     try:
         while status is None:
             state, status = trainer.advanced(state)
             if status and status.failed:
                 break
-            if progress:
+            if progress and trainer.judges(state):
                 progress(trainer.progress(state))
             if checkpoint and monotonic() - written > CHECKPOINT_EVERY_S:
-                state.write(checkpoint, trainer.origin)
+                state.write(checkpoint, origin, trainer.epochs(state))
                 written = monotonic()
     finally:
         if checkpoint and not (status and status.failed):
-            state.write(checkpoint, trainer.origin)
+            state.write(checkpoint, origin, trainer.epochs(state))
     return trainer.fit(state, status)

@@ -14,9 +14,9 @@ from safetensors.numpy import save as as_safetensors
 
 from motionese.errors import StorageError
 from motionese.files import write_whole
-from motionese.learning.training.epochs import Iterate
+from motionese.learning.training.updates import Iterate
 
-FORMAT, VERSION = "motionese-training", "3"
+FORMAT, VERSION = "motionese-training", "4"
 SERIES = ("losses", "validation_losses")
 
 
@@ -25,26 +25,32 @@ class TrainingState:
     """Where a training stands.
 
     Attributes:
-        latest: Parameters, the update rule's memory, epochs done.
+        latest: Parameters, the update rule's memory, updates done.
         best: The one that was best for the held-out motions so far.
         held_out: Initial states of the held-out motions, as found last. [H, N]
-        losses: One an epoch. [E]
+        losses: One an update. [U]
         validation_losses: One a chunk of epochs. [V]
     """
 
     latest: Iterate
     best: Iterate
     held_out: Float[ndarray, "H N"]
-    losses: Float[ndarray, " E"]
+    losses: Float[ndarray, " U"]
     validation_losses: Float[ndarray, " V"]
 
-    def write(self, path: Path, origin: Mapping[str, str]) -> None:
-        """Write a checkpoint, whole or not at all; `origin` says what it belongs to."""
+    def write(self, path: Path, origin: Mapping[str, str], epochs: int) -> None:
+        """Write a checkpoint, whole or not at all.
+
+        Args:
+            path: The file.
+            origin: What it belongs to.
+            epochs: How many whole ones are done.
+        """
         arrays = {name: getattr(self, name) for name in (*SERIES, "held_out")}
         for name in ("latest", "best"):
             for i, leaf in enumerate(jax.tree.leaves(getattr(self, name))):
                 arrays[f"{name}.{i}"] = np.asarray(leaf)
-        facts = {"format": FORMAT, "version": VERSION, "epochs": str(len(self.losses)), **origin}
+        facts = {"format": FORMAT, "version": VERSION, "epochs": str(epochs), **origin}
         write_whole(path, as_safetensors(arrays, facts))
 
     def resumed(self, path: Path, origin: Mapping[str, str]) -> "TrainingState":

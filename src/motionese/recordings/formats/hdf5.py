@@ -1,7 +1,8 @@
 """HDF5 as imitation learning writes it: a file, or a folder of them, of any layout in `LAYOUTS`."""
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -14,6 +15,7 @@ from motionese.recordings.formats.conventions import imported, natural, why
 from motionese.recordings.formats.hdf5_walk import check_walkable
 from motionese.recordings.formats.robomimic import write
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.stored import StoredRecording
 
 __all__ = ["read", "write"]
 
@@ -53,17 +55,39 @@ def read(path: Path) -> Recording:
     return _joined(path, [_part(h5py, file) for file in files])
 
 
+def stored(path: Path) -> StoredRecording:
+    """Open a file of robomimic's layout, whose demonstrations are read one at a time."""
+    h5py = imported("h5py", "hdf5", "reading HDF5")
+    if path.is_file():
+        check_walkable([path])
+        with _readable(path):
+            file = h5py.File(path, "r")
+            if robomimic.holds(file):
+                found = robomimic.stored(path, file)
+                return replace(found, read=_readable(path)(found.read))
+    raise RecordingError(
+        f"{path}: of HDF5 one file of robomimic's layout ({robomimic.WHAT}) can be left where it "
+        "is (--stored); this is another"
+    )
+
+
 def _part(h5py: Any, path: Path) -> _Part:
+    with _readable(path), h5py.File(path, "r") as file:
+        for name, layout in LAYOUTS.items():
+            if layout.holds(file):
+                return _Part(name, layout.recording(path, file))
+        known = "; ".join(f"{name}: {layout.WHAT}" for name, layout in LAYOUTS.items())
+        raise RecordingError(
+            f"{path}: HDF5 of a layout that is not read here ({known}); "
+            f"here are: {', '.join(file) or 'none'}"
+        )
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    """Refuse, in a sentence, a file that h5py cannot read."""
     try:
-        with h5py.File(path, "r") as file:
-            for name, layout in LAYOUTS.items():
-                if layout.holds(file):
-                    return _Part(name, layout.recording(path, file))
-            known = "; ".join(f"{name}: {layout.WHAT}" for name, layout in LAYOUTS.items())
-            raise RecordingError(
-                f"{path}: HDF5 of a layout that is not read here ({known}); "
-                f"here are: {', '.join(file) or 'none'}"
-            )
+        yield
     except (OSError, RuntimeError, LookupError, TypeError, ValueError, MemoryError) as error:
         # What h5py raises depends on which byte is damaged.
         raise RecordingError(

@@ -18,6 +18,7 @@ from motionese.recordings.finding import Finding
 from motionese.recordings.formats.conventions import WIDEST, is_bookkeeping, strings
 from motionese.recordings.rate import FASTEST_HZ
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.stored import StoredRecording
 
 DERIVED = "derived_from"
 """Attribute of a dataset that is computed from another one, so that reading leaves it out."""
@@ -37,7 +38,7 @@ class _Columns(NamedTuple):
     units: tuple[str, ...]
 
 
-def recording_of(
+def stored_in(
     source: Path,
     groups: Sequence[tuple[str, Any]],
     datasets: Sequence[str],
@@ -46,7 +47,7 @@ def recording_of(
     *,
     usual: str = "",
     ahead: Sequence[str] = (),
-) -> Recording:
+) -> StoredRecording:
     """Return the episodes that stand in these groups, by name, with the channels of the first.
 
     Args:
@@ -75,16 +76,31 @@ def recording_of(
         [c for c in columns if under(c.dataset, *ACTIONS)],
         columns,
     ]
-    return Recording(
+    names = tuple(n for c in columns for n in c.names)
+    nothing = np.empty((0, len(names)))
+    outline = Recording(
         source=source,
-        channels=tuple(n for c in columns for n in c.names),
+        channels=names,
         units=tuple(u for c in columns for u in c.units),
         ranges={},
         rate_hz=rate_hz,
-        episodes=tuple(_episode(source, *named, columns, ahead) for named in groups),
+        episodes=tuple(Episode.whole(name, nothing) for name, _ in groups),
         usual=tuple(n for c in next(filter(None, preferred)) for n in c.names),
         findings=tuple(_too_wide(source, first, datasets)),
     )
+    return StoredRecording(outline, lambda i: _episode(source, *groups[i], columns, ahead))
+
+
+def recording_of(
+    source: Path,
+    groups: Sequence[tuple[str, Any]],
+    datasets: Sequence[str],
+    observed: str,
+    rate_hz: float | None,
+    **more: Any,
+) -> Recording:
+    """Return the same recording with all episodes read; arguments as of `stored_in`."""
+    return stored_in(source, groups, datasets, observed, rate_hz, **more).whole()
 
 
 def paths(item: Any) -> list[str]:

@@ -17,6 +17,7 @@ from motionese.recordings.formats.npz_flat import read_flat
 from motionese.recordings.formats.writing import write_file
 from motionese.recordings.nature import judged
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.stored import StoredRecording
 from motionese.recordings.told_rate import as_timed
 
 FORMAT, VERSION = "motionese-motions", 1
@@ -66,15 +67,38 @@ def read(path: Path, columns: Sequence[str] | None = None) -> Recording:
                 return judged(read_flat(path, file, columns))
             if columns is not None:
                 raise SettingError(f"{path}: its channels have names; --columns is for bare arrays")
-            metadata = _metadata(path, file)
-            episodes = tuple(
-                _episode(path, file, i, name, len(metadata.channels))
-                for i, name in enumerate(metadata.episodes)
-            )
+            return as_timed(_stored(path, file).whole())
     except UNREADABLE as error:
         raise RecordingError(f"{path}: not a whole archive of arrays: {why(error)}") from error
+
+
+def stored(path: Path) -> StoredRecording:
+    """Open a file that `write` wrote, whose episodes are read one at a time."""
+    try:
+        file = np.load(path, allow_pickle=False)
+        if METADATA in getattr(file, "files", ()):
+            return _stored(path, file)
+    except UNREADABLE as error:
+        raise RecordingError(f"{path}: not a whole archive of arrays: {why(error)}") from error
+    raise RecordingError(
+        f"{path}: of archives, those that motionese wrote can be left where they are (--stored), "
+        "which hold an array an episode; this is another"
+    )
+
+
+def _stored(path: Path, file: Any) -> StoredRecording:
+    metadata = _metadata(path, file)
+    nothing = np.empty((0, len(metadata.channels)))
     told = metadata.model_dump(include={*SHARED})
-    return as_timed(Recording(source=path, episodes=episodes, **told))
+    episodes = tuple(Episode.whole(name, nothing) for name in metadata.episodes)
+
+    def episode(i: int) -> Episode:
+        try:
+            return _episode(path, file, i, metadata.episodes[i], len(metadata.channels))
+        except UNREADABLE as error:
+            raise RecordingError(f"{path}: not a whole archive of arrays: {why(error)}") from error
+
+    return StoredRecording(Recording(source=path, episodes=episodes, **told), episode)
 
 
 def write(path: Path, recording: Recording) -> None:

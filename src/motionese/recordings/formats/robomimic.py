@@ -21,11 +21,12 @@ from motionese.recordings.formats.hdf5_columns import (
     paths,
     rate_in,
     read_json,
-    recording_of,
+    stored_in,
 )
 from motionese.recordings.formats.set_apart import TESTING, TRAINING, set_apart
 from motionese.recordings.formats.writing import check_even_and_whole, next_rows, write_file
 from motionese.recordings.recording import Episode, Recording
+from motionese.recordings.stored import StoredRecording
 
 WHAT = "groups data/demo_0, data/demo_1, …"
 OBSERVED, MASKS = "obs", "mask"
@@ -39,6 +40,11 @@ def holds(file: Any) -> bool:
 
 
 def recording(path: Path, file: Any) -> Recording:
+    """Return the demonstrations of a file, all of them read."""
+    return stored(path, file).whole()
+
+
+def stored(path: Path, file: Any) -> StoredRecording:
     """Return the demonstrations, in natural order; those that masks set apart are held out.
 
     The rate is `control_freq` of the environment where the file has it.
@@ -47,7 +53,7 @@ def recording(path: Path, file: Any) -> Recording:
     first = data[demos[0]]
     inside = [f"{OBSERVED}/{key}" for key in paths(first.get(OBSERVED))]
     told = read_json(data.attrs.get("env_args"))
-    found = recording_of(
+    found = stored_in(
         path,
         [(_name(data[demo], demo), data[demo]) for demo in demos],
         [*inside, *(key for key in first if key != OBSERVED)],
@@ -55,8 +61,9 @@ def recording(path: Path, file: Any) -> Recording:
         rate_in(told.get("env_kwargs")) if isinstance(told, dict) else None,
     )
     held_out, findings = set_apart(path, _masks(file), demos)
-    names = tuple(found.episodes[demos.index(demo)].name for demo in held_out)
-    return replace(found, held_out=names).found(*findings)
+    outline = found.outline
+    names = tuple(outline.episodes[demos.index(demo)].name for demo in held_out)
+    return replace(found, outline=replace(outline, held_out=names).found(*findings))
 
 
 def write(path: Path, recording: Recording) -> None:
