@@ -115,6 +115,7 @@ def flip(path, place):
     path.write_bytes(content)
 
 
+@pytest.mark.slow
 def test_what_a_killed_process_did_not_come_to_list_is_done_again(
     tmp_path, small_settings, undisturbed, monkeypatch
 ):

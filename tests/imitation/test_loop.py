@@ -253,6 +253,7 @@ def test_a_learner_is_written_as_a_fit(scene, looped, tmp_path):
     assert np.abs((np.array(played) - generated) / width).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_evaluation_of_new_sequences(scene):
     learner = learner_of(scene, levels=3)
     taught = (*PUSHING_BUTTONS.sequences(1), *PUSHING_BUTTONS.lesson("taught pairs"))

@@ -17,6 +17,7 @@ def far(found, values, channels):
     return (np.sqrt(((found.path - values) ** 2)[1:].mean(0)) / channels.spans).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("observed", ["x", "y", "z"])
 def test_hidden_channels_are_recovered_from_a_third_of_them(fit, motions, observed):
     for values in motions.values:

@@ -51,6 +51,7 @@ def test_fresh_demonstrations_of_every_motion_are_recognised(learned, lesson):
     assert lesson.network is learner.network
 
 
+@pytest.mark.slow
 def test_strokes_go_where_the_task_says_as_the_robot_sees_them(lesson):
     signs = {"↓": -np.pi / 2, "↑": np.pi / 2, "←": np.pi}
     assert set(lesson.primitives) == set(PUSHING_BUTTONS.primitives)

@@ -134,6 +134,7 @@ def test_places_that_are_none_for_the_one_report(command, here, out, told):
     assert errors.startswith(f"motionese: {told}")
 
 
+@pytest.mark.slow
 def test_the_one_report_of_run_folders_is_made_of_what_theirs_leave(command, here, monkeypatch):
     monkeypatch.setattr("motionese.analysis.report.figures", lambda *of: ())
     for preset in ("default", "order"):

@@ -367,6 +367,7 @@ def test_a_training_that_has_ended_goes_on_to_more_epochs(arm):
     assert "--epochs 1000" in refusal
 
 
+@pytest.mark.slow
 def test_going_on_ends_with_the_same_bits_stopped_or_not(arm, stopped_at):
     noisy = ("--set", "noise=cf:0.01")
     trained_on("--epochs", "100", *noisy)

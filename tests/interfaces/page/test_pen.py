@@ -40,6 +40,7 @@ def of_kind(told, kind):
     return [message for message in told if message["type"] == kind]
 
 
+@pytest.mark.slow
 def test_every_learned_motion_and_none_have_a_share_while_the_pen_moves(robot):
     robot, told = robot
     draw(robot)
