@@ -5,6 +5,7 @@
 Arms that were run elsewhere stay as the table beside the page keeps them.
 """
 
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -26,11 +27,21 @@ ABOUT = """# The experiments on motionese
 
 What was measured of the [plan](../plan_motionese.md). Medians over seeds, with intervals [95 %].
 """
+PLAN = Path(__file__).parents[1] / "plan_motionese.md"
+LEFT_OUT = {"straightness"}
+"""Of the plan: ways are straight in this task, and it changes nothing."""
 
 
 def lines(arms: Arms) -> Iterator[str]:
     """Yield the lines of the page."""
     yield ABOUT
+    planned = re.findall(r"--out runs/motionese/(\S+)", PLAN.read_text("utf-8"))
+    if missing := [arm for arm in planned if arm not in arms and arm not in LEFT_OUT]:
+        yield (
+            f"Not run yet, of {len(planned)} arms: {', '.join(missing)}. Tests that need them are "
+            "missing below, and those of their families are corrected for the tests that are there "
+            "alone: verdicts of such a family are provisional.\n"
+        )
     yield "## Findings\n"
     yield from tested(arm_findings(arms))
     yield "\n## Arms\n"
