@@ -35,7 +35,9 @@ LEFT_OUT = {"straightness"}
 def lines(arms: Arms) -> Iterator[str]:
     """Yield the lines of the page."""
     yield ABOUT
-    planned = re.findall(r"--out runs/motionese/(\S+)", PLAN.read_text("utf-8"))
+    planned = re.findall(
+        r"^ {4}motionese .*--out runs/motionese/(\S+)", PLAN.read_text("utf-8"), re.M
+    )
     if missing := [arm for arm in planned if arm not in arms and arm not in LEFT_OUT]:
         yield (
             f"Not run yet, of {len(planned)} arms: {', '.join(missing)}. Tests that need them are "
