@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from invented_runs import condition, write_run
 
 from motionese.errors import RunFolderError
 from motionese.experiment import condition_named, go_through
@@ -45,6 +46,7 @@ def test_of_a_whole_folder_the_latest_robot_is_taken(folder):
     ("asked", "said"),
     [("TD-MD/seed-6", "no run of this name"), ("../nowhere", "no run folder")],
 )
-def test_what_is_not_there_is_told(folder, asked, said):
+def test_what_is_not_there_is_told(tmp_path, asked, said):
+    write_run(tmp_path, condition("TD/MD"), 5, end="unfinished")
     with pytest.raises(RunFolderError, match=said):
-        robot_of(folder / asked)
+        robot_of(tmp_path / asked)
