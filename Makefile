@@ -28,6 +28,8 @@ results: $(READY)
 test: $(TOOLS) lint
 	@$(PYTEST) -m "not slow"
 
+# Compiled as users do; the quick tests compile in another way (tests/conftest.py).
+test-all: export XLA_FLAGS = --xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1
 test-all: $(TOOLS) lint
 	@$(PYTEST)
 

@@ -163,7 +163,10 @@ TRUE = {
 """Motions, levels, epochs, further settings, and what is wrong with such a training."""
 
 
-@pytest.mark.parametrize("why", TRUE)
+# That forks are found is tested above.
+@pytest.mark.parametrize(
+    "why", [pytest.param(w, marks=pytest.mark.slow) if w == "chance" else w for w in TRUE]
+)
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_the_reason_is_told(why, seed):
     motions, levels, epochs, settings, told = TRUE[why]

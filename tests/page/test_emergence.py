@@ -3,9 +3,8 @@
 import pytest
 
 
-@pytest.fixture
-def explorer(person):
-    """A person before the map of the trained robot."""
+def before_the_map(person):
+    """A person before the map of the robot."""
     person.presses("map-draw")
     person.page.locator("#map-ways li").first.wait_for()
     return person
@@ -44,7 +43,9 @@ def test_a_newborn_has_nothing_clear_and_is_told_what_cannot_be_measured(parent)
         assert "Another Cf" in parent.page.inner_text("#map-title")
 
 
-def test_pointing_at_the_map_shows_the_motion_at_once_and_moves_nothing(explorer):
+@pytest.mark.slow
+def test_pointing_at_the_map_shows_the_motion_at_once_and_moves_nothing(person):
+    explorer = before_the_map(person)
     view, map_ = (explorer.page.get_by_test_id(name) for name in ("view", "map"))
     explorer.until(lambda state: state["hovered"])
     before, place = explorer.state(), view.bounding_box()
@@ -64,7 +65,8 @@ def test_pointing_at_the_map_shows_the_motion_at_once_and_moves_nothing(explorer
     assert explorer.complaints == []
 
 
-def test_the_map_is_walked_with_the_keys_and_tells_what_is_there(explorer):
+def test_the_map_is_walked_with_the_keys_and_tells_what_is_there(parent):
+    explorer = before_the_map(parent)
     assert explorer.focused() == "map"
     begun = explorer.until(lambda state: state["hovered"])["point"]
     told = explorer.reads("map-told")
