@@ -21,7 +21,7 @@ RECOGNISED = 2**14
 """Rows that are recognised together at most: every one is held for several starts."""
 
 
-def judged(
+def errors_by_share(
     network: MTRNN,
     pieces: Iterable[tuple[range, Batch]],
     initial: Float[ndarray, "S N"],

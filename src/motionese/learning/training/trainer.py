@@ -27,7 +27,7 @@ from motionese.learning.recognition.recognise import SAME_RATE
 from motionese.learning.settings import Recognition, Training
 from motionese.learning.status import Ending, Progress, Status
 from motionese.learning.training.feed import ROWS, UPDATES, Feed
-from motionese.learning.training.pieces import judged, recognised
+from motionese.learning.training.pieces import errors_by_share, recognised
 from motionese.learning.training.shared_states import Groups, averaged, averaging
 from motionese.learning.training.training_state import TrainingState
 from motionese.learning.training.updates import Iterate, run_updates
@@ -191,7 +191,9 @@ class Trainer:
         closed = share_of_range(errors[: len(self.motions)], channels)
         loss = error = None
         if self.validation:
-            _, errors = judged(now.network, self.validation.batches(ROWS), state.held_out, (0.0,))
+            _, errors = errors_by_share(
+                now.network, self.validation.batches(ROWS), state.held_out, (0.0,)
+            )
             loss, error = float(state.validation_losses[-1]), share_of_range(errors, channels)
         epochs = self.losses(state)
         return Progress(len(epochs), float(epochs[-1]), closed, loss, error)
@@ -210,7 +212,7 @@ class Trainer:
         early = self.validation is not None and self.settings.patience > 0
         end = self._now(state.best if early else state.latest)
         given = self._pieces(), np.asarray(end.initial_states), (1.0, 0.0)
-        states, forced, closed = judged(end.network, *given)
+        states, forced, closed = errors_by_share(end.network, *given)
         fit = Fit(
             network=end.network,
             initial_states=states,
