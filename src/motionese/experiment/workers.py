@@ -84,17 +84,19 @@ def workers_of(
     Raises:
         SettingError: It does not answer, or none of its workers is fit.
     """
-    where = f"--scheduler {scheduler}"
-    with dask.config.set({"logging.distributed": "critical"}):
-        try:
-            client = Client(scheduler, timeout=ANSWERS_WITHIN_S)
-        except (OSError, ValueError) as error:
-            raise SettingError(
-                f"{where}: no Dask scheduler answers there ({error}); start one with "
-                "`dask scheduler`, which prints its address"
-            ) from error
-        with client:
-            yield prepared(client, where, files, told)
+    with dask.config.set({"logging.distributed": "critical"}), client_of(scheduler) as client:
+        yield prepared(client, f"--scheduler {scheduler}", files, told)
+
+
+def client_of(scheduler: str) -> Client:
+    """Return a client of a scheduler; `SettingError` where none answers."""
+    try:
+        return Client(scheduler, timeout=ANSWERS_WITHIN_S)
+    except (OSError, ValueError) as error:
+        raise SettingError(
+            f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); start one with "
+            "`dask scheduler`, which prints its address"
+        ) from error
 
 
 def prepared(

@@ -91,6 +91,10 @@ WRONG = {
         [*VARY, "--workers", "2", "--scheduler", "tcp://here:1"],
         "--workers and --scheduler exclude each other",
     ),
+    "nobody there": (
+        [*VARY, "--scheduler", "tcp://127.0.0.1"],
+        "--scheduler tcp://127.0.0.1: no Dask scheduler answers there (missing port number",
+    ),
     "slurm": ([*VARY, "--slurm", "none.toml"], "none.toml: cannot be read"),
 }
 

@@ -11,7 +11,7 @@ from motionese.experiment.many_runs import Job
 from motionese.experiment.run_folder import SETTINGS
 from motionese.experiment.shard import Shard, read_shard
 from motionese.experiment.slurm import Slurm, read_slurm, workers_of_slurm
-from motionese.experiment.workers import OpenedWorkers, local_workers, workers_of
+from motionese.experiment.workers import OpenedWorkers, client_of, local_workers, workers_of
 
 
 class Where(NamedTuple):
@@ -54,12 +54,15 @@ def read_where(
     """Return where runs are done; all options may be left out.
 
     Raises:
-        SettingError: Options that exclude each other, or one that is wrong.
+        SettingError: Options that exclude each other, one that is wrong, or a scheduler that does
+            not answer.
     """
     options = {"--workers": workers, "--scheduler": scheduler, "--slurm": slurm}
     given = [name for name, value in options.items() if value is not None]
     if len(given) > 1:
         raise SettingError(f"{given[0]} and {given[1]} exclude each other; choose one")
+    if scheduler is not None:
+        client_of(scheduler).close()
     return Where(
         workers or CPU_COUNT,
         scheduler or "",
