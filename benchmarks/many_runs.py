@@ -93,7 +93,9 @@ def kill_one_now_and_then(
     parent: psutil.Process, ended: threading.Event, killed: list[int]
 ) -> None:
     while not ended.wait(KILL_EVERY_S):
-        spawned = [p for p in parent.children(recursive=True) if "spawn_main" in p.cmdline()[-1]]
+        spawned = [
+            p for p in parent.children(recursive=True) if "spawn_main" in " ".join(p.cmdline())
+        ]
         if spawned:
             spawned[len(killed) % len(spawned)].kill()
             killed.append(len(spawned))
@@ -110,19 +112,22 @@ def main() -> None:
             seconds[count] = gone_through(folder, settings, SEEDS, local_workers(count, print))
             print(f"{count} workers: {seconds[count]:.0f} s; {digest(folder)}")
         print(f"two workers are {seconds[1] / seconds[2]:.2f} times as fast as one")
-        with scheduler(4) as (address, parent):
-            folder, ended, killed = root / "scheduler", threading.Event(), list[int]()
-            folder.mkdir()
-            with open_run_folder(folder, settings, "default"):
-                opened = workers_of(address, [folder / SETTINGS], print)
-            thread = threading.Thread(target=kill_one_now_and_then, args=(parent, ended, killed))
-            thread.start()
-            took = gone_through(folder, settings, SEEDS, opened)
-            ended.set()
-            thread.join()
-            print(
-                f"a scheduler with 4 workers, {len(killed)} killed: {took:.0f} s; {digest(folder)}"
-            )
+        by_a_scheduler(root / "scheduler", settings)
+
+
+def by_a_scheduler(folder: Path, settings: Study) -> None:
+    """Let four workers of a scheduler do all runs, and kill one of them every twenty seconds."""
+    folder.mkdir()
+    with scheduler(4) as (address, parent):
+        ended, killed = threading.Event(), list[int]()
+        with open_run_folder(folder, settings, "default"):
+            opened = workers_of(address, [folder / SETTINGS], print)
+        thread = threading.Thread(target=kill_one_now_and_then, args=(parent, ended, killed))
+        thread.start()
+        took = gone_through(folder, settings, SEEDS, opened)
+        ended.set()
+        thread.join()
+    print(f"a scheduler with 4 workers, {len(killed)} killed: {took:.0f} s; {digest(folder)}")
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ def model(tmp_path_factory):
 
 def loop(model, **given):
     still = {"sense": lambda: dict.fromkeys(CHANNELS, 0.0), "act": lambda command: None}
-    return runtime.ControlLoop(**{"model": model, "watchdog_s": 0.5, **still, **given})
+    return runtime.ControlLoop(**{"model": model, "watchdog_s": 60.0, **still, **given})
 
 
 def functions(model, folder):
