@@ -201,7 +201,7 @@ def threads(size: Size) -> None:
     table = Table(title="Milliseconds of an update (wall clock)")
     for heading in ("motions × rows", "one core", "two cores", "times faster"):
         table.add_column(heading, justify="right")
-    for count in (16, 32, 64, 128, 256, 512):
+    for count in (2, 4, 8, 16, 64, 256):
         motions = episodes(size).chosen(range(min(count, size.episodes)))
         best = [np.inf, np.inf]
         for turn in range(10):

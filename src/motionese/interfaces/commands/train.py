@@ -41,7 +41,7 @@ LEVELS, IO_TAU = "40:5,8:70", 2.0
 """Context levels as SIZE:TAU, and the time constant of the IO level, where none are given."""
 BY_LEVEL = ("bound", "noise")
 """Settings that can be given by level, as in 'bound=cf:5,cs:2'."""
-PAYS = 5_000
+PAYS = 800
 """Rows of an update for every thread from which on several are faster than one; see
 `benchmarks/large_recordings.py`."""
 MOST_UNITS = 5000
@@ -206,7 +206,7 @@ def _devices(
     if rows < PAYS * threads:
         console.print(
             f"An update is of {rows} rows: {threads} threads pay from about {PAYS * threads} on, "
-            "one would be faster"
+            "one is about as fast"
         )
     return devices[:threads]
 
