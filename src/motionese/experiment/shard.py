@@ -7,7 +7,7 @@ from typing import NamedTuple, TypeVar
 from motionese.errors import SettingError
 
 MOST_SHARDS = 10_000
-Run = TypeVar("Run")
+Each = TypeVar("Each")
 
 
 class Shard(NamedTuple):
@@ -20,7 +20,7 @@ class Shard(NamedTuple):
         """Return it as it is asked for."""
         return f"{self.number}/{self.parts}"
 
-    def part(self, runs: Sequence[Run]) -> list[Run]:
+    def part(self, runs: Sequence[Each]) -> list[Each]:
         """Return its runs. Neighbours, which may be the conditions of a seed, are dealt in turn."""
         dealt = ((place + place // self.parts) % self.parts for place in range(len(runs)))
         return [run for run, to in zip(runs, dealt, strict=True) if to == self.number - 1]

@@ -91,7 +91,7 @@ def reproduce(
         os.environ.setdefault("JAX_PLATFORMS", "cpu")
         _check_extra("reproduce")
         from motionese.interfaces.commands.reproduce import reproduce as perform
-        from motionese.interfaces.commands.where import read_where
+        from motionese.interfaces.commands.workplace import read_workplace
 
         too_few = perform(
             console,
@@ -100,7 +100,7 @@ def reproduce(
             presets=preset or ["default"],
             overrides=[*(overrides or ()), *([f"body.vision={vision}"] if vision else ())],
             out=out,
-            where=read_where(workers, scheduler, slurm, shard),
+            where=read_workplace(workers, scheduler, slurm, shard),
             quick=quick,
             caregiver=caregiver,
         )
@@ -143,7 +143,7 @@ def sweep(
         _check_extra("sweep")
         from motionese.experiment.sweeps import titles
         from motionese.interfaces.commands.sweep import sweep as perform
-        from motionese.interfaces.commands.where import read_where
+        from motionese.interfaces.commands.workplace import read_workplace
 
         if name is None and not vary:
             for each, title in titles():
@@ -158,7 +158,7 @@ def sweep(
             seeds=seeds,
             overrides=overrides or (),
             out=out,
-            where=read_where(workers, scheduler, slurm, shard),
+            where=read_workplace(workers, scheduler, slurm, shard),
             quick=quick,
         )
     _end(too_few, trial=quick)

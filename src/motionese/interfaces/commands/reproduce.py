@@ -13,7 +13,7 @@ from motionese.interfaces.commands.choices import as_ranges, read_seeds
 from motionese.interfaces.commands.display import Display
 from motionese.interfaces.commands.results import write_all_results, write_results
 from motionese.interfaces.commands.series import SCRIPTED, Series, read_presets, read_series
-from motionese.interfaces.commands.where import Where
+from motionese.interfaces.commands.workplace import Workplace
 
 
 def reproduce(
@@ -24,7 +24,7 @@ def reproduce(
     presets: Sequence[str],
     overrides: Iterable[str],
     out: Path | None,
-    where: Where,
+    where: Workplace,
     quick: bool,
     caregiver: str = SCRIPTED,
 ) -> str:
@@ -55,7 +55,7 @@ def perform(
     root: Path,
     series: Sequence[Series],
     seeds: Sequence[int],
-    where: Where,
+    where: Workplace,
     written: Callable[[Sequence[Path]], str],
     *,
     beside: Mapping[str, str] = MappingProxyType({}),
@@ -95,7 +95,7 @@ def perform(
     return too_few
 
 
-def _shard_done(every: Sequence[Job], where: Where, root: Path, console: Console) -> str:
+def _shard_done(every: Sequence[Job], where: Workplace, root: Path, console: Console) -> str:
     """Do the runs of a shard; their report is written when all have ended."""
     assert where.shard is not None
     own = where.shard.part(every)
@@ -128,7 +128,7 @@ def _say_what(series: Series, folder: RunFolder, numbers: Sequence[int], console
         say(f"{this} was begun with other versions ({change}): the bits may differ")
 
 
-def _go_through(jobs: Sequence[Job], where: Where, console: Console) -> list[str]:
+def _go_through(jobs: Sequence[Job], where: Workplace, console: Console) -> list[str]:
     left = [job for job in jobs if not job.run.ended()]
     begun = sum(job.run.loops_done() > 0 for job in left)
     if len(left) < len(jobs) or begun:

@@ -14,7 +14,7 @@ from motionese.interfaces.commands.choices import read_seeds
 from motionese.interfaces.commands.reproduce import perform
 from motionese.interfaces.commands.results import write_all_results
 from motionese.interfaces.commands.series import Asked, read_series
-from motionese.interfaces.commands.where import Where
+from motionese.interfaces.commands.workplace import Workplace
 
 
 def sweep(
@@ -27,7 +27,7 @@ def sweep(
     seeds: str,
     overrides: Iterable[str],
     out: Path | None,
-    where: Where,
+    where: Workplace,
     quick: bool,
 ) -> str:
     """Go through a sweep's runs, or what is left of them, and report.

@@ -14,7 +14,7 @@ from motionese.experiment.slurm import Slurm, read_slurm, workers_of_slurm
 from motionese.experiment.workers import OpenedWorkers, client_of, local_workers, workers_of
 
 
-class Where(NamedTuple):
+class Workplace(NamedTuple):
     """Where runs are done.
 
     Attributes:
@@ -48,9 +48,9 @@ class Where(NamedTuple):
         return local_workers(min(self.processes, len(jobs)), told)
 
 
-def read_where(
+def read_workplace(
     workers: int | None, scheduler: str | None, slurm: Path | None, shard: str | None
-) -> Where:
+) -> Workplace:
     """Return where runs are done; all options may be left out.
 
     Raises:
@@ -63,7 +63,7 @@ def read_where(
         raise SettingError(f"{given[0]} and {given[1]} exclude each other; choose one")
     if scheduler is not None:
         client_of(scheduler).close()
-    return Where(
+    return Workplace(
         workers or CPU_COUNT,
         scheduler or "",
         None if slurm is None else read_slurm(slurm),
