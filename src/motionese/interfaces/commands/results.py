@@ -89,7 +89,8 @@ def write_all_results(folders: Sequence[Path], path: Path, console: Console) -> 
         if too_few := write_results(folder, console):
             reasons.append(f"{folder}: {too_few}")
     with console.status("Writing the report of all …"):
-        if swept := sweep_in(path.parent):
+        around = {folder.resolve().parent for folder in folders}
+        if len(around) == 1 and (swept := sweep_in(around.pop())):
             write_sweep(swept, folders, path)
         else:
             write_comparison(folders, path)
